@@ -1,0 +1,17 @@
+#include "core/cli/command.hpp"
+
+namespace scree::core {
+
+const std::vector<Command>& commands() {
+  static const std::vector<Command> all = {
+      {"run", "SCENE", "run a scene", declare_run},
+      {"resume", "FOLDER", "go on with a run that was cut short, bit for bit", declare_resume},
+      {"check", "SCENE", "the checks of a run, up to its first cycle", declare_check},
+      {"explain", "SCENE", "what the run will open, store, do and leave out, and why", declare_explain},
+      {"list", "[KIND]", "the plug-ins that are found, and where", declare_list},
+      {"show", "NAME", "one plug-in: its keys, units, ranges, defaults", declare_show},
+      {"demo", "", "a real job: a mould filled with stones", declare_demo}};
+  return all;
+}
+
+}  // namespace scree::core

@@ -1,0 +1,333 @@
+#include "core/contact/contacts.hpp"
+
+#include <algorithm>
+
+#include "core/contact/run_law.hpp"
+
+namespace scree::core {
+
+namespace {
+
+struct Shifts {
+  double of[64][3];
+  explicit Shifts(const PeriodicCell& cell) {
+    for (int code = 0; code < 64; ++code)
+      for (int axis = 0; axis < 3; ++axis) {
+        const int image = (code >> (2 * axis)) & 3;
+        of[code][axis] = image == 1 ? cell.length(axis) : image == 2 ? -cell.length(axis) : 0.0;
+      }
+  }
+};
+
+void load_columns(const TouchList& list, uint32_t n, Scratch& s) {
+  for (std::size_t w = 0; w < list.state.size(); ++w) {
+    const double* column = list.state[w].data();
+    for (uint32_t k = 0; k < n; ++k) s.state[w][k] = column[s.slot[k]];
+  }
+  for (std::size_t v = 0; v < list.property.size(); ++v) {
+    const double* column = list.property[v].data();
+    for (uint32_t k = 0; k < n; ++k) s.property[v][k] = column[s.slot[k]];
+  }
+}
+
+void store_columns(TouchList& list, uint32_t n, const Scratch& s) {
+  for (std::size_t w = 0; w < list.state.size(); ++w) {
+    double* column = list.state[w].data();
+    for (uint32_t k = 0; k < n; ++k) column[s.slot[k]] = s.state[w][k];
+  }
+  for (uint32_t k = 0; k < n; ++k) list.active[s.slot[k]] = 1;
+}
+
+void store_report(TouchList& list, const BoundRule& rule, uint32_t n, const Scratch& s) {
+  if (list.report.size() != 7) list.report.assign(7, Array<double>(list.size()));
+  const bool moment = !rule.normal_only() && (rule.needs & SCREE_GIVES_MOMENT) != 0;
+  const double* from[7] = {s.fx,
+                           s.fy,
+                           s.fz,
+                           moment ? s.mx : nullptr,
+                           moment ? s.my : nullptr,
+                           moment ? s.mz : nullptr,
+                           rule.normal_only() ? nullptr : s.sliding};
+  for (std::size_t w = 0; w < 7; ++w)
+    if (from[w] != nullptr)
+      for (uint32_t k = 0; k < n; ++k) list.report[w][s.slot[k]] = from[w][k];
+}
+
+Excess pair_excess(const BoundRule& rule, const Balls& balls, uint32_t n, double limit, const Scratch& s) {
+  Excess excess;
+  for (uint32_t k = 0; k < n; ++k) {
+    const double least = std::min(s.r1[k], s.r2[k]);
+    if (!(-s.gap[k] > limit * least) || -s.gap[k] <= excess.overlap) continue;
+    excess = {true, rule.name, rule.model_name, balls.id()[s.row[k]], balls.id()[s.other[k]], "", -s.gap[k], least};
+    if (excess.id1 > excess.id2) std::swap(excess.id1, excess.id2);
+  }
+  return excess;
+}
+
+double least_of(const double* values, std::size_t n) { return n == 0 ? 1.0 : *std::min_element(values, values + n); }
+
+}  // namespace
+
+Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& balls, const double (*shift)[3],
+                          const PassOptions& options, Scratch& s) {
+  TouchList& list = lists_[index];
+  const BoundRule& rule = book.rules[index];
+  Excess excess;
+  if (rule.model == nullptr || list.size() == 0) return excess;
+  const BallView view(balls);
+  const StageTable& stage = stages(isa);
+  const bool lean = slices_.stride() == Slices::lean, spin = !rule.normal_only();
+  const bool turn = spin && (rule.needs & SCREE_NEEDS_TURN) != 0,
+             moment = spin && (rule.needs & SCREE_GIVES_MOMENT) != 0;
+  const auto filter = stage.filter[shift != nullptr];
+  const auto geometry = stage.geometry[spin][turn];
+  const auto scatter = lean ? stage.scatter[0][0][options.sums] : stage.scatter[spin ? 2 : 1][moment][options.sums];
+  const FilterInput input{list.begin.data(), list.other.data(), list.where.data(), shift, rule.reach};
+  const std::size_t first = block * block_rows, last = first + slices_.block_size(block);
+  Cursor cursor{list.begin[first], first, last};
+  while (cursor.row < last) {
+    uint32_t drops[SCREE_BATCH], dropped = 0;
+    const uint32_t n = filter(view, input, cursor, list.active.data(), s, drops, dropped);
+    for (auto& column : list.state)
+      for (uint32_t k = 0; k < dropped; ++k) column[drops[k]] = 0;
+    if (n == 0) continue;
+    if (geometry(view, n, options.dt, options.overlap_limit, s) && !excess.found)
+      excess = pair_excess(rule, balls, n, options.overlap_limit, s);
+    load_columns(list, n, s);
+    run_law(rule, n, options.dt, s);
+    store_columns(list, n, s);
+    if (options.report) store_report(list, rule, n, s);
+    scatter(n, first, slices_.slice(block), s);
+  }
+  return excess;
+}
+
+Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vector<Wall>& walls,
+                           const double (*shift)[3], const PassOptions& options, Scratch& s) {
+  slices_.clear(block);
+  Excess worst;
+  for (std::size_t rule = 0; rule < lists_.size(); ++rule) {
+    Excess excess = run_list(block, rule, balls, shift, options, s);
+    if (excess.found && !worst.found) worst = excess;
+  }
+  const BallView view(balls);
+  for (std::size_t k = wall_first_[block]; k < wall_first_[block + 1]; ++k) {
+    WallList& list = wall_lists_[k];
+    const BoundRule& rule = book.rules[list.rule];
+    const WallPass pass{&view,
+                        balls.id(),
+                        &walls[list.wall],
+                        &rule,
+                        block * block_rows,
+                        slices_.slice(block),
+                        slices_.stride(),
+                        options.dt,
+                        options.overlap_limit,
+                        options.sums,
+                        options.report};
+    const int64_t slot = run_wall_list(list, pass, s);
+    if (slot < 0 || worst.found) continue;
+    const uint32_t row = list.slots[static_cast<std::size_t>(slot)].row;
+    const double r = view.radius[row];
+    worst = {true, rule.name, rule.model_name, balls.id()[row], 0, walls[list.wall].name, options.overlap_limit * r, r};
+  }
+  return worst;
+}
+
+Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const PeriodicCell& cell,
+                          const PassOptions& options, Team& team) {
+  const Shifts shifts(cell);
+  const double(*shift)[3] = cell.any() ? shifts.of : nullptr;
+  if (scratch_.size() < team.size()) scratch_.resize(team.size());
+  if (options.report)
+    for (TouchList& list : lists_)
+      if (list.report.empty() || list.report[0].size() != list.size())
+        list.report.assign(7, Array<double>(list.size()));
+  std::vector<Excess> excess(slices_.blocks());
+  team.each_block(slices_.blocks(), [&](std::size_t block, unsigned thread) {
+    excess[block] = run_block(block, balls, walls, shift, options, scratch_[thread]);
+  });
+  for (Wall& wall : walls) {
+    wall.force = wall.moment = {};
+    wall.contacts = 0;
+  }
+  for (const WallList& list : wall_lists_) {
+    Wall& wall = walls[list.wall];
+    for (std::size_t c = 0; c < 3; ++c) {
+      wall.force[c] += list.force[c];
+      wall.moment[c] += list.moment[c];
+    }
+    wall.contacts += list.slots.size();
+  }
+  for (Excess& found : excess)
+    if (found.found) return found;
+  return {};
+}
+
+void Contacts::forget() {
+  lists_.clear();
+  wall_lists_.clear();
+  wall_first_.clear();
+  built_ = false;
+}
+
+void Contacts::rebuild(Balls& balls, std::vector<Wall>& walls, const PeriodicCell& cell, double skin, Team& team) {
+  const std::size_t n = balls.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!cell.periodic[axis]) continue;
+    double* at = balls[static_cast<Column>(static_cast<int>(Column::x) + axis)];
+    for (std::size_t row = 0; row < n; ++row) at[row] = cell.wrapped(at[row], axis);
+  }
+  const std::vector<uint32_t> order = spatial_order(balls, 4 * least_of(balls[Column::radius], n) + skin);
+  const bool moved = !std::is_sorted(order.begin(), order.end());
+  if (moved) balls.reorder(order.data());
+  std::vector<uint32_t> old_row = moved || !before_.empty() ? order : std::vector<uint32_t>();
+  if (!before_.empty())
+    for (uint32_t& row : old_row) row = row < before_.size() ? before_[row] : no_row;
+  before_.clear();
+  uint32_t most = 0;
+  for (uint32_t row : old_row) most = row == no_row ? most : std::max(most, row + 1);
+  std::vector<uint32_t> new_row(most, no_row);
+  for (std::size_t row = 0; row < old_row.size(); ++row)
+    if (old_row[row] != no_row) new_row[old_row[row]] = static_cast<uint32_t>(row);
+  const PairTable pairs = find_pairs(balls, cell, skin + book.reach(), team);
+  lists_.resize(book.rules.size());
+  const Carry carry{&balls, &pairs, &book, &old_row, &cell};
+  for (std::size_t rule = 0; rule < lists_.size(); ++rule)
+    if (book.rules[rule].model != nullptr) core::rebuild(lists_[rule], static_cast<uint16_t>(rule), carry, team);
+  rebuild_wall_lists(balls, walls, new_row, skin, team);
+  slices_.build(lists_, n, book.spins() ? Slices::with_spin : Slices::lean, team);
+  built_ = true;
+}
+
+void Contacts::rebuild_wall_lists(const Balls& balls, const std::vector<Wall>& walls,
+                                  const std::vector<uint32_t>& new_row, double skin, Team& team) {
+  const std::size_t blocks = (balls.size() + block_rows - 1) / block_rows;
+  std::vector<std::vector<WallList>> fresh(blocks);
+  const BallView view(balls);
+  team.each_block(blocks, [&](std::size_t block) {
+    const std::size_t first = block * block_rows, last = std::min(balls.size(), first + block_rows);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const std::vector<uint32_t> near = wall_candidates(view, walls[w], first, last, skin + book.reach());
+      for (std::size_t rule = 0; rule < book.rules.size() && !near.empty(); ++rule) {
+        if (book.rules[rule].model == nullptr) continue;
+        WallList list;
+        list.block = static_cast<uint32_t>(block);
+        list.wall = static_cast<uint16_t>(w);
+        list.rule = static_cast<uint16_t>(rule);
+        for (uint32_t row : near)
+          if (book.wall(balls.group()[row], list.wall) == rule) list.candidates.push_back(row);
+        if (!list.candidates.empty()) fresh[block].push_back(std::move(list));
+      }
+    }
+  });
+  std::vector<WallList> old;
+  old.swap(wall_lists_);
+  wall_first_.assign(1, 0);
+  for (auto& part : fresh) {
+    for (WallList& list : part) wall_lists_.push_back(std::move(list));
+    wall_first_.push_back(wall_lists_.size());
+  }
+  give_wall_slots(old, new_row);
+}
+
+// What wall contacts remember goes to the list that now holds their row.
+void Contacts::give_wall_slots(const std::vector<WallList>& old, const std::vector<uint32_t>& new_row) {
+  struct Kept {
+    std::size_t to;
+    WallSlot slot;
+    const double *state, *property;
+  };
+  std::vector<Kept> kept;
+  for (const WallList& list : old) {
+    const BoundRule& rule = book.rules[list.rule];
+    const std::size_t words = rule.state_words(), varying = rule.varying.size();
+    if (list.state.size() != list.slots.size() * words || list.property.size() != list.slots.size() * varying) continue;
+    for (std::size_t k = 0; k < list.slots.size(); ++k) {
+      WallSlot slot = list.slots[k];
+      if (!new_row.empty()) slot.row = slot.row < new_row.size() ? new_row[slot.row] : no_row;
+      if (slot.row == no_row) continue;
+      const std::size_t block = slot.row / block_rows;
+      for (std::size_t to = wall_first_[block]; to < wall_first_[block + 1]; ++to)
+        if (wall_lists_[to].wall == list.wall && wall_lists_[to].rule == list.rule)
+          kept.push_back({to, slot, list.state.data() + k * words, list.property.data() + k * varying});
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) {
+    if (a.to != b.to) return a.to < b.to;
+    return a.slot.row != b.slot.row ? a.slot.row < b.slot.row : a.slot.patch < b.slot.patch;
+  });
+  for (const Kept& one : kept) {
+    WallList& list = wall_lists_[one.to];
+    const BoundRule& rule = book.rules[list.rule];
+    list.slots.push_back(one.slot);
+    list.state.insert(list.state.end(), one.state, one.state + rule.state_words());
+    list.property.insert(list.property.end(), one.property, one.property + rule.varying.size());
+  }
+}
+
+void Contacts::rows_kept(const std::vector<uint8_t>& keep) {
+  std::vector<uint32_t> rows;
+  for (std::size_t row = 0; row < keep.size(); ++row)
+    if (keep[row]) rows.push_back(before_.empty() ? static_cast<uint32_t>(row) : before_[row]);
+  before_.swap(rows);
+  built_ = false;
+}
+
+void Contacts::restore(std::vector<TouchList> lists, std::vector<WallList> wall_lists,
+                       std::vector<uint32_t> rows_before, bool built, std::size_t rows, Team& team) {
+  lists_ = std::move(lists);
+  wall_lists_ = std::move(wall_lists);
+  before_ = std::move(rows_before);
+  built_ = built;
+  wall_first_.clear();
+  if (!built) return;
+  std::size_t next = 0;
+  for (std::size_t block = 0; block <= (rows + block_rows - 1) / block_rows; ++block) {
+    while (next < wall_lists_.size() && wall_lists_[next].block < block) ++next;
+    wall_first_.push_back(next);
+  }
+  slices_.build(lists_, rows, book.spins() ? Slices::with_spin : Slices::lean, team);
+}
+
+void Contacts::wall_gone(std::size_t wall) {
+  std::erase_if(wall_lists_, [&](const WallList& list) { return list.wall == wall; });
+  for (WallList& list : wall_lists_)
+    if (list.wall > wall) --list.wall;
+  built_ = false;
+}
+
+void Contacts::renew(std::size_t rule, const Balls& balls, const std::vector<Wall>& walls) {
+  built_ = false;
+  if (rule < lists_.size()) lists_[rule].stale = true;
+  const BoundRule& law = book.rules[rule];
+  const BallView view(balls);
+  for (WallList& list : wall_lists_) {
+    if (list.rule != rule) continue;
+    renew_wall_list(list, law, view, walls[list.wall]);
+  }
+}
+
+std::size_t Contacts::bytes() const {
+  std::size_t sum = slices_.bytes();
+  for (const TouchList& list : lists_) sum += list.bytes();
+  for (const WallList& list : wall_lists_)
+    sum += list.candidates.capacity() * sizeof(uint32_t) + list.slots.capacity() * sizeof(WallSlot) +
+           (list.state.capacity() + list.property.capacity() + list.report.capacity()) * sizeof(double);
+  return sum;
+}
+
+uint64_t Contacts::active() const {
+  uint64_t sum = 0;
+  for (const TouchList& list : lists_)
+    for (std::size_t k = 0; k < list.active.size(); ++k) sum += list.active[k];
+  return sum;
+}
+
+uint64_t Contacts::listed() const {
+  uint64_t sum = 0;
+  for (const TouchList& list : lists_) sum += list.size();
+  return sum;
+}
+
+}  // namespace scree::core

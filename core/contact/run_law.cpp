@@ -1,0 +1,63 @@
+#include "core/contact/run_law.hpp"
+
+#include <limits>
+
+#include "core/base/error.hpp"
+
+namespace scree::core {
+
+scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& s, const double** property, double** state) {
+  scree_batch batch{};
+  batch.struct_size = sizeof batch;
+  batch.n = n;
+  batch.dt = dt;
+  batch.nx = s.nx;
+  batch.ny = s.ny;
+  batch.nz = s.nz;
+  batch.gap = s.gap;
+  batch.vx = s.vx;
+  batch.vy = s.vy;
+  batch.vz = s.vz;
+  batch.r1 = s.r1;
+  batch.r2 = s.r2;
+  batch.mass = s.mass;
+  batch.fx = s.fx;
+  batch.fy = s.fy;
+  batch.fz = s.fz;
+  if (!rule.varying.empty()) {
+    for (std::size_t w = 0; w < rule.words.size(); ++w) property[w] = &rule.constants[w * SCREE_BATCH];
+    for (std::size_t v = 0; v < rule.varying.size(); ++v) property[rule.varying[v]] = s.property[v];
+    batch.property = property;
+  }
+  if (rule.normal_only()) return batch;
+  if (rule.needs & SCREE_NEEDS_SPIN) {
+    batch.wx = s.wx;
+    batch.wy = s.wy;
+    batch.wz = s.wz;
+  }
+  if (rule.needs & SCREE_NEEDS_TURN) {
+    batch.tx = s.tx;
+    batch.ty = s.ty;
+    batch.tz = s.tz;
+  }
+  if (rule.needs & SCREE_GIVES_MOMENT) {
+    batch.mx = s.mx;
+    batch.my = s.my;
+    batch.mz = s.mz;
+  }
+  for (uint32_t w = 0; w < rule.state_words(); ++w) state[w] = s.state[w];
+  batch.state = state;
+  batch.sliding = s.sliding;
+  return batch;
+}
+
+void run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& s) {
+  const double* property[2 * Scratch::state_words];
+  double* state[Scratch::state_words];
+  const scree_batch batch = batch_of(rule, n, dt, s, property, state);
+  if (rule.law(rule.words.data(), &batch) == std::numeric_limits<uint32_t>::max())
+    throw Refusal(Exit::plugin, "contact model '" + rule.model_name + "' of rule '" + rule.name +
+                                    "' threw an exception while it ran: report it to the plug-in's author");
+}
+
+}  // namespace scree::core

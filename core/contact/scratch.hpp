@@ -1,0 +1,31 @@
+#pragma once
+#include <scree/abi.h>
+
+#include <cstdint>
+
+namespace scree::core {
+
+/// One batch on its way through the stages, small enough for the first-level cache. One per thread.
+/// The filter writes one place past the end of a full batch, hence the padding.
+struct alignas(64) Scratch {
+  static constexpr uint32_t size = SCREE_BATCH;
+  static constexpr uint32_t padded = SCREE_BATCH + 8;
+  static constexpr uint32_t state_words = 16;
+  double nx[padded], ny[padded], nz[padded];  ///< first the separation of centres, then the unit normal
+  double gap[padded];                         ///< first the sum of radii
+  double square[padded];                      ///< squared distance of centres
+  double sign[padded];                        ///< -1 where the higher row has the lower id
+  double vx[padded], vy[padded], vz[padded];
+  double wx[padded], wy[padded], wz[padded];
+  double tx[padded], ty[padded], tz[padded];
+  double r1[padded], r2[padded], mass[padded];
+  double arm_i[padded], arm_j[padded];  ///< from each centre to the contact point, m
+  double fx[padded], fy[padded], fz[padded];
+  double mx[padded], my[padded], mz[padded];
+  double sliding[padded];
+  double state[state_words][padded];
+  double property[state_words * 2][padded];
+  uint32_t slot[padded], row[padded], other[padded], where[padded];
+};
+
+}  // namespace scree::core

@@ -1,0 +1,46 @@
+#pragma once
+#include <cstdint>
+
+#include "core/contact/scratch.hpp"
+#include "core/world/balls.hpp"
+
+namespace scree::core {
+
+/// What the stages read of the balls; null where a column does not exist.
+struct BallView {
+  const double *x, *y, *z, *vx, *vy, *vz, *wx, *wy, *wz, *radius, *inverse_mass;
+  explicit BallView(const Balls& balls);
+};
+
+/// A place in a touch list: the next slot to look at, and its row.
+struct Cursor {
+  uint64_t slot;
+  std::size_t row, last_row;
+};
+
+/// What the filter needs of a list.
+struct FilterInput {
+  const uint64_t* begin;
+  const uint32_t *other, *where;
+  const double (*shift)[3];  ///< by image code; null without periodic axes
+  double reach;
+};
+
+/// Fills the batch with the pairs that touch, from the cursor on; stops when the batch or `drops` is full (SCREE_BATCH)
+/// or the block ends. A slot whose contact has just ended goes into `drops`: its state must be forgotten.
+using FilterStage = uint32_t (*)(const BallView&, const FilterInput&, Cursor&, uint8_t* active, Scratch&,
+                                 uint32_t* drops, uint32_t& dropped);
+/// From separations to everything a law reads. True when an overlap exceeds limit times the smaller radius.
+using GeometryStage = bool (*)(const BallView&, uint32_t n, double dt, double overlap_limit, Scratch&);
+/// Adds the forces of the batch to the records of a block, row by row.
+using ScatterStage = void (*)(uint32_t n, std::size_t first_row, double* slice, Scratch&);
+
+/// The stages of one instruction set. All sets give the same bits.
+struct StageTable {
+  FilterStage filter[2];          ///< [periodic]
+  GeometryStage geometry[2][2];   ///< [spin][turn]
+  ScatterStage scatter[3][2][2];  ///< [lean record, spin record with normal law, spin][moment][sum of sizes]
+};
+const StageTable& stages(int isa);
+
+}  // namespace scree::core

@@ -1,0 +1,291 @@
+#include "core/contact/step_bound.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/run_law.hpp"
+
+namespace scree::core {
+
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Tangents of a batch, as a law reports them.
+struct Tangents {
+  double normal[SCREE_BATCH], shear[SCREE_BATCH], bending[SCREE_BATCH], twist[SCREE_BATCH];
+  double ratio_normal[SCREE_BATCH], ratio_shear[SCREE_BATCH];
+};
+
+void ask_law(const BoundRule& rule, uint32_t n, Scratch& s, Tangents& t) {
+  const double* property[2 * Scratch::state_words];
+  double* state[Scratch::state_words];
+  const scree_batch batch = batch_of(rule, n, 0.0, s, property, state);
+  std::fill_n(reinterpret_cast<double*>(&t), sizeof t / sizeof(double), 0.0);
+  const scree_stiffness out{
+      sizeof(scree_stiffness), n, t.normal, t.shear, t.bending, t.twist, t.ratio_normal, t.ratio_shear};
+  rule.model->stiffness(rule.words.data(), &batch, &out);
+  if (rule.normal_only()) std::fill_n(t.shear, n, 0.0);
+}
+
+struct Sums {
+  std::vector<Matrix6> stiffness, damping;
+  bool dashpots = false;
+};
+
+// Adds one contact to the scaled block of a ball: weight counts how often it must be counted.
+void add(Matrix6& block, const Eigen::Vector3d& n, double arm, double kn, double ks, double kb, double kt,
+         double weight, double inverse_mass, double radius) {
+  const Eigen::Matrix3d nn = n * n.transpose(), across = Eigen::Matrix3d::Identity() - nn;
+  Eigen::Matrix3d turn;
+  turn << 0, -n.z(), n.y(), n.z(), 0, -n.x(), -n.y(), n.x(), 0;
+  const double per_mass = weight * inverse_mass, per_inertia = per_mass * 2.5 / (radius * radius);
+  const double mixed = per_mass * std::sqrt(2.5) / radius;
+  block.topLeftCorner<3, 3>() += per_mass * (kn * nn + ks * across);
+  block.bottomRightCorner<3, 3>() += per_inertia * ((ks * arm * arm + kb) * across + kt * nn);
+  // Shear motion of the surface is across u + rotation x (arm n).
+  const Eigen::Matrix3d coupling = mixed * ks * arm * turn;
+  block.bottomLeftCorner<3, 3>() += coupling;
+  block.topRightCorner<3, 3>() += coupling.transpose();
+}
+
+struct Piece {
+  std::size_t row;
+  double arm, weight;
+};
+
+class Accumulator {
+ public:
+  Accumulator(const Balls& balls, std::size_t first, std::size_t last) : balls_(balls), first_(first), last_(last) {
+    sums_.stiffness.assign(last - first, Matrix6::Zero());
+    sums_.damping.assign(last - first, Matrix6::Zero());
+  }
+  bool holds(std::size_t row) const { return row >= first_ && row < last_; }
+  void contact(const Piece& piece, const Eigen::Vector3d& n, const Tangents& t, uint32_t k, double mass) {
+    if (!holds(piece.row)) return;
+    const double inverse = balls_[Column::inverse_mass][piece.row], radius = balls_[Column::radius][piece.row];
+    if (inverse == 0) return;
+    add(sums_.stiffness[piece.row - first_], n, piece.arm, t.normal[k], t.shear[k], t.bending[k], t.twist[k],
+        piece.weight, inverse, radius);
+    if (t.ratio_normal[k] == 0 && t.ratio_shear[k] == 0) return;
+    sums_.dashpots = true;
+    add(sums_.damping[piece.row - first_], n, piece.arm, 2 * t.ratio_normal[k] * std::sqrt(mass * t.normal[k]),
+        2 * t.ratio_shear[k] * std::sqrt(mass * t.shear[k]), 0, 0, piece.weight, inverse, radius);
+  }
+  // Largest eigenvalue over the rows; a Cholesky test spares the eigenvalues of all but a few.
+  void largest(StepBound& bound) const {
+    for (std::size_t k = 0; k < sums_.stiffness.size(); ++k) {
+      if (raise(sums_.stiffness[k], bound.stiffness)) bound.ball = balls_.id()[first_ + k];
+      if (sums_.dashpots) raise(sums_.damping[k], bound.damping);
+    }
+  }
+
+ private:
+  static bool raise(const Matrix6& block, double& most) {
+    if (most > 0) {
+      const Eigen::LLT<Matrix6> below(most * Matrix6::Identity() - block);
+      if (below.info() == Eigen::Success) return false;
+    }
+    if (block.trace() == 0) return false;
+    const double value = Eigen::SelfAdjointEigenSolver<Matrix6>(block, Eigen::EigenvaluesOnly).eigenvalues()(5);
+    if (!(value > most)) return false;
+    most = value;
+    return true;
+  }
+  const Balls& balls_;
+  std::size_t first_, last_;
+  Sums sums_;
+};
+
+void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, const Balls& balls,
+               const double (*shift)[3], Scratch& s, Tangents& t) {
+  const TouchList& list = contacts.lists()[index];
+  const BoundRule& rule = contacts.book.rules[index];
+  if (rule.model == nullptr || list.size() == 0) return;
+  const BallView view(balls);
+  const StageTable& stage = stages(0);
+  std::vector<uint8_t> nobody(list.size(), 0);
+  const FilterInput everything{list.begin.data(), list.other.data(), list.where.data(), shift,
+                               std::numeric_limits<double>::infinity()};
+  Cursor cursor{0, 0, balls.size()};
+  while (cursor.row < cursor.last_row) {
+    uint32_t drops[SCREE_BATCH], dropped = 0;
+    const uint32_t n = stage.filter[shift != nullptr](view, everything, cursor, nobody.data(), s, drops, dropped);
+    if (n == 0) continue;
+    stage.geometry[0][0](view, n, 0.0, 1.0, s);
+    for (std::size_t v = 0; v < list.property.size(); ++v)
+      for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[v][s.slot[k]];
+    for (std::size_t w = 0; w < list.state.size(); ++w)
+      for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[w][s.slot[k]];
+    ask_law(rule, n, s, t);
+    for (uint32_t k = 0; k < n; ++k) {
+      const std::size_t i = s.row[k], j = s.other[k];
+      if (!sums.holds(i) && !sums.holds(j)) continue;
+      const Eigen::Vector3d normal(s.nx[k], s.ny[k], s.nz[k]);
+      // A gap that has yet to close does not lengthen the arm it will have.
+      const double half = 0.5 * std::min(0.0, s.gap[k]);
+      sums.contact({i, view.radius[i] + half, view.inverse_mass[j] > 0 ? 2.0 : 1.0}, normal, t, k, s.mass[k]);
+      sums.contact({j, view.radius[j] + half, view.inverse_mass[i] > 0 ? 2.0 : 1.0}, normal, t, k, s.mass[k]);
+    }
+  }
+}
+
+// A wall without walls' own motion: every candidate counts once with the normal it would have.
+void add_walls(Accumulator& sums, const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
+               Scratch& s, Tangents& t) {
+  const BallView view(balls);
+  for (const WallList& list : contacts.wall_lists()) {
+    const BoundRule& rule = contacts.book.rules[list.rule];
+    const Wall& wall = walls[list.wall];
+    for (uint32_t row : list.candidates) {
+      if (!sums.holds(row) || view.inverse_mass[row] == 0) continue;
+      const auto centre = wall.to_frame({view.x[row], view.y[row], view.z[row]});
+      const double reach = 4 * view.radius[row] + rule.reach;
+      uint32_t ball[8], patch[8];
+      double nx[8], ny[8], nz[8], distance[8];
+      const scree_touches touches{sizeof(scree_touches), 8, ball, patch, nx, ny, nz, distance};
+      const uint32_t found = std::min<uint32_t>(
+          8, wall.table->touch(wall.geometry.get(), 1, &centre[0], &centre[1], &centre[2], &reach, &touches));
+      for (uint32_t k = 0; k < found; ++k) {
+        if (distance[k] > 2 * view.radius[row] + rule.reach) continue;
+        const auto normal = wall.from_frame({nx[k], ny[k], nz[k]});
+        s.nx[0] = normal[0];
+        s.ny[0] = normal[1];
+        s.nz[0] = normal[2];
+        s.gap[0] = distance[k] - view.radius[row];
+        s.r1[0] = view.radius[row];
+        s.r2[0] = 0;
+        s.mass[0] = 1.0 / view.inverse_mass[row];
+        for (uint32_t w = 0; w < rule.state_words(); ++w) s.state[w][0] = 0;
+        if (!rule.varying.empty()) {
+          Birth birth;
+          birth.row1 = row;
+          birth.wall = &wall;
+          birth.r1 = s.r1[0];
+          birth.mass = s.mass[0];
+          birth.x = view.x[row];
+          birth.y = view.y[row];
+          birth.z = view.z[row];
+          std::vector<double> words = rule.words;
+          rule.vary(birth, words.data());
+          for (std::size_t v = 0; v < rule.varying.size(); ++v) s.property[v][0] = words[rule.varying[v]];
+        }
+        ask_law(rule, 1, s, t);
+        sums.contact({row, view.radius[row], 1.0}, Eigen::Vector3d(normal[0], normal[1], normal[2]), t, 0, s.mass[0]);
+      }
+    }
+  }
+}
+
+void finish(StepBound& bound, double local_damping) {
+  if (bound.stiffness > 0) {
+    const double k = bound.stiffness, c = bound.damping;
+    // Written without the cancellation of -c + sqrt(c^2 + 4 k).
+    bound.step = 4 / (c + std::sqrt(c * c + 4 * k));
+  } else if (bound.damping > 0) {
+    bound.step = 2 / bound.damping;
+  }
+  bound.step /= std::sqrt(1 + local_damping);
+}
+
+}  // namespace
+
+StepBound step_bound(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
+                     const PeriodicCell& cell, double local_damping) {
+  StepBound bound;
+  bound.term = "contacts";
+  double shifts[64][3];
+  for (int code = 0; code < 64; ++code)
+    for (int axis = 0; axis < 3; ++axis) {
+      const int image = (code >> (2 * axis)) & 3;
+      shifts[code][axis] = image == 1 ? cell.length(axis) : image == 2 ? -cell.length(axis) : 0.0;
+    }
+  const auto scratch = std::make_unique<Scratch>();
+  const auto tangents = std::make_unique<Tangents>();
+  // Rows in portions: the blocks of all balls at once would be the largest array of a run.
+  constexpr std::size_t portion = 65536;
+  for (std::size_t first = 0; first < balls.size(); first += portion) {
+    Accumulator sums(balls, first, std::min(balls.size(), first + portion));
+    for (std::size_t rule = 0; rule < contacts.lists().size(); ++rule)
+      add_pairs(sums, contacts, rule, balls, cell.any() ? shifts : nullptr, *scratch, *tangents);
+    add_walls(sums, contacts, balls, walls, *scratch, *tangents);
+    sums.largest(bound);
+  }
+  finish(bound, local_damping);
+  return bound;
+}
+
+StepBound possible_pairs(const RuleBook& book, const Balls& balls, const std::vector<Wall>& walls,
+                         double local_damping) {
+  StepBound bound;
+  bound.term = "possible pair";
+  const auto s = std::make_unique<Scratch>();
+  const auto t = std::make_unique<Tangents>();
+  const auto consider = [&](std::size_t row, uint16_t index, const Wall* wall) {
+    if (index == no_rule || book.rules[index].model == nullptr) return;
+    const BoundRule& rule = book.rules[index];
+    const double inverse = balls[Column::inverse_mass][row], radius = balls[Column::radius][row];
+    if (inverse == 0) return;
+    Birth birth;
+    birth.row1 = static_cast<uint32_t>(row);
+    birth.row2 = wall != nullptr ? no_row : birth.row1;
+    birth.wall = wall;
+    birth.r1 = radius;
+    birth.r2 = wall != nullptr ? 0 : radius;
+    birth.mass = wall != nullptr ? 1 / inverse : 0.5 / inverse;
+    birth.x = balls[Column::x][row];
+    birth.y = balls[Column::y][row];
+    birth.z = balls[Column::z][row];
+    std::vector<double> words = rule.words;
+    if (!rule.varying.empty()) rule.vary(birth, words.data());
+    for (std::size_t v = 0; v < rule.varying.size(); ++v) s->property[v][0] = words[rule.varying[v]];
+    for (uint32_t w = 0; w < rule.state_words(); ++w) s->state[w][0] = 0;
+    s->nx[0] = 1;
+    s->ny[0] = s->nz[0] = 0;
+    s->gap[0] = -1e-6 * radius;
+    s->r1[0] = radius;
+    s->r2[0] = birth.r2;
+    s->mass[0] = birth.mass;
+    ask_law(rule, 1, *s, *t);
+    Matrix6 block = Matrix6::Zero();
+    const double weight = wall != nullptr ? 1 : 2;
+    add(block, Eigen::Vector3d::UnitX(), radius, t->normal[0], t->shear[0], t->bending[0], t->twist[0], weight, inverse,
+        radius);
+    const double value = Eigen::SelfAdjointEigenSolver<Matrix6>(block, Eigen::EigenvaluesOnly).eigenvalues()(5);
+    if (value > bound.stiffness) {
+      bound.stiffness = value;
+      bound.ball = balls.id()[row];
+    }
+    if (t->ratio_normal[0] == 0 && t->ratio_shear[0] == 0) return;
+    Matrix6 dashpot = Matrix6::Zero();
+    add(dashpot, Eigen::Vector3d::UnitX(), radius, 2 * t->ratio_normal[0] * std::sqrt(birth.mass * t->normal[0]),
+        2 * t->ratio_shear[0] * std::sqrt(birth.mass * t->shear[0]), 0, 0, weight, inverse, radius);
+    bound.damping = std::max(bound.damping,
+                             Eigen::SelfAdjointEigenSolver<Matrix6>(dashpot, Eigen::EigenvaluesOnly).eigenvalues()(5));
+  };
+  // Within one group the lightest ball is the stiffest to move; uniform rules see it through radius and mass alone.
+  std::vector<std::size_t> lightest(book.groups(), no_row);
+  for (std::size_t row = 0; row < balls.size(); ++row) {
+    std::size_t& held = lightest[balls.group()[row]];
+    if (held == no_row || balls[Column::mass][row] < balls[Column::mass][held]) held = row;
+  }
+  for (std::size_t group = 0; group < book.groups(); ++group) {
+    if (lightest[group] == no_row) continue;
+    for (std::size_t other = 0; other < book.groups(); ++other)
+      if (lightest[other] != no_row)
+        consider(lightest[group], book.balls(static_cast<uint16_t>(group), static_cast<uint16_t>(other)), nullptr);
+    for (std::size_t w = 0; w < walls.size(); ++w)
+      consider(lightest[group], book.wall(static_cast<uint16_t>(group), static_cast<uint16_t>(w)), &walls[w]);
+  }
+  finish(bound, local_damping);
+  return bound;
+}
+
+StepBound smaller(const StepBound& a, const StepBound& b) {
+  if (a.step == 0) return b;
+  if (b.step == 0) return a;
+  return b.step < a.step ? b : a;
+}
+
+}  // namespace scree::core

@@ -1,0 +1,258 @@
+#include "core/contact/wall_list.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/run_law.hpp"
+#include "core/contact/slices.hpp"
+
+namespace scree::core {
+
+namespace {
+
+using V = std::array<double, 3>;
+
+V cross(const V& a, const V& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Touches of a set of rows, sorted by row and patch, in the scene's frame.
+struct Touches {
+  std::vector<uint32_t> ball, patch;
+  std::vector<double> nx, ny, nz, distance;
+  std::vector<uint32_t> order;
+  uint32_t count = 0;
+
+  void resize(std::size_t n) {
+    ball.resize(n);
+    patch.resize(n);
+    nx.resize(n);
+    ny.resize(n);
+    nz.resize(n);
+    distance.resize(n);
+  }
+};
+
+struct Centres {
+  std::vector<double> x, y, z, reach;
+};
+
+// Asks the wall; grows the buffers until all touches fit.
+void ask(const Wall& wall, const BallView& balls, const uint32_t* rows, std::size_t n, double margin, Touches& out) {
+  thread_local Centres centres;
+  centres.x.resize(n);
+  centres.y.resize(n);
+  centres.z.resize(n);
+  centres.reach.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const uint32_t row = rows[k];
+    const V local = wall.to_frame({balls.x[row], balls.y[row], balls.z[row]});
+    centres.x[k] = local[0];
+    centres.y[k] = local[1];
+    centres.z[k] = local[2];
+    centres.reach[k] = balls.radius[row] + margin;
+  }
+  if (out.ball.size() < n + 64) out.resize(n + 64);
+  for (;;) {
+    const scree_touches touches{sizeof(scree_touches), static_cast<uint32_t>(out.ball.size()),
+                                out.ball.data(),       out.patch.data(),
+                                out.nx.data(),         out.ny.data(),
+                                out.nz.data(),         out.distance.data()};
+    out.count = wall.table->touch(wall.geometry.get(), static_cast<uint32_t>(n), centres.x.data(), centres.y.data(),
+                                  centres.z.data(), centres.reach.data(), &touches);
+    if (out.count <= out.ball.size()) break;
+    out.resize(out.count);
+  }
+  out.order.resize(out.count);
+  for (uint32_t k = 0; k < out.count; ++k) out.order[k] = k;
+  const auto before = [&](uint32_t a, uint32_t b) {
+    return out.ball[a] != out.ball[b] ? out.ball[a] < out.ball[b] : out.patch[a] < out.patch[b];
+  };
+  if (!std::is_sorted(out.order.begin(), out.order.end(), before))
+    std::sort(out.order.begin(), out.order.end(), before);
+  if (!wall.turned()) return;
+  for (uint32_t k = 0; k < out.count; ++k) {
+    const V n3 = wall.from_frame({out.nx[k], out.ny[k], out.nz[k]});
+    out.nx[k] = n3[0];
+    out.ny[k] = n3[1];
+    out.nz[k] = n3[2];
+  }
+}
+
+Birth birth_at_wall(const BallView& balls, const Wall& wall, uint32_t row, const V& normal, double distance) {
+  Birth birth;
+  birth.row1 = row;
+  birth.wall = &wall;
+  birth.r1 = balls.radius[row];
+  birth.mass = balls.inverse_mass[row] > 0 ? 1.0 / balls.inverse_mass[row] : 0.0;
+  birth.x = balls.x[row] + distance * normal[0];
+  birth.y = balls.y[row] + distance * normal[1];
+  birth.z = balls.z[row] + distance * normal[2];
+  return birth;
+}
+
+// Lines up what is remembered with the touches of now: both are sorted, so one merge does it.
+void carry_over(WallList& list, const Touches& touches, const WallPass& pass) {
+  const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
+  thread_local std::vector<WallSlot> slots;
+  thread_local std::vector<double> state, property, all;
+  slots.resize(touches.count);
+  state.assign(touches.count * words, 0.0);
+  property.resize(touches.count * varying);
+  std::size_t old = 0;
+  for (uint32_t k = 0; k < touches.count; ++k) {
+    const uint32_t t = touches.order[k], row = list.candidates[touches.ball[t]], patch = touches.patch[t];
+    const V normal{touches.nx[t], touches.ny[t], touches.nz[t]};
+    while (old < list.slots.size() &&
+           (list.slots[old].row < row || (list.slots[old].row == row && list.slots[old].patch < patch)))
+      ++old;
+    const bool known = old < list.slots.size() && list.slots[old].row == row && list.slots[old].patch == patch;
+    slots[k] = {row, patch, known ? list.slots[old].normal : normal};
+    if (known) {
+      std::copy_n(&list.state[old * words], words, state.begin() + static_cast<std::ptrdiff_t>(k * words));
+      std::copy_n(&list.property[old * varying], varying, property.begin() + static_cast<std::ptrdiff_t>(k * varying));
+    } else if (varying > 0) {
+      all = pass.rule->words;
+      pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, row, normal, touches.distance[t]), all.data());
+      for (std::size_t v = 0; v < varying; ++v) property[k * varying + v] = all[pass.rule->varying[v]];
+    }
+  }
+  list.slots.swap(slots);
+  list.state.swap(state);
+  list.property.swap(property);
+}
+
+// Geometry of slots [first, first + n): piece 1 is the ball, piece 2 the wall.
+bool geometry(WallList& list, const WallPass& pass, const Touches& touches, std::size_t first, uint32_t n, Scratch& s) {
+  const BallView& b = *pass.balls;
+  const Wall& wall = *pass.wall;
+  const bool spin = b.wx != nullptr && !pass.rule->normal_only();
+  bool beyond = false;
+  for (uint32_t k = 0; k < n; ++k) {
+    WallSlot& slot = list.slots[first + k];
+    const uint32_t t = touches.order[first + k], i = slot.row;
+    const V normal{touches.nx[t], touches.ny[t], touches.nz[t]};
+    const double gap = touches.distance[t] - b.radius[i], arm = b.radius[i] + 0.5 * gap;
+    const V point{b.x[i] + arm * normal[0], b.y[i] + arm * normal[1], b.z[i] + arm * normal[2]};
+    const V from_centre{point[0] - wall.centre[0], point[1] - wall.centre[1], point[2] - wall.centre[2]};
+    const V turning = cross(wall.spin, from_centre);
+    V v{wall.velocity[0] + turning[0] - b.vx[i], wall.velocity[1] + turning[1] - b.vy[i],
+        wall.velocity[2] + turning[2] - b.vz[i]};
+    if (spin) {
+      const V w{b.wx[i], b.wy[i], b.wz[i]};
+      const V surface = cross(w, normal);
+      for (std::size_t c = 0; c < 3; ++c) v[c] -= arm * surface[c];
+      const V tilt = cross(slot.normal, normal);
+      const double both = 1 + dot(slot.normal, normal);
+      const double scale = both > 0 ? 2 / both : 0.0;
+      const V sum{w[0] + wall.spin[0], w[1] + wall.spin[1], w[2] + wall.spin[2]};
+      const double about = 0.5 * pass.dt * dot(sum, normal);
+      s.tx[k] = scale * tilt[0] + about * normal[0];
+      s.ty[k] = scale * tilt[1] + about * normal[1];
+      s.tz[k] = scale * tilt[2] + about * normal[2];
+      s.wx[k] = wall.spin[0] - w[0];
+      s.wy[k] = wall.spin[1] - w[1];
+      s.wz[k] = wall.spin[2] - w[2];
+    }
+    s.nx[k] = normal[0];
+    s.ny[k] = normal[1];
+    s.nz[k] = normal[2];
+    s.gap[k] = gap;
+    s.vx[k] = v[0];
+    s.vy[k] = v[1];
+    s.vz[k] = v[2];
+    s.r1[k] = b.radius[i];
+    s.r2[k] = 0;
+    s.mass[k] = b.inverse_mass[i] > 0 ? 1.0 / b.inverse_mass[i] : 0.0;
+    s.arm_i[k] = arm;
+    beyond |= -gap > pass.overlap_limit * b.radius[i];
+    slot.normal = normal;
+  }
+  return beyond;
+}
+
+void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, Scratch& s) {
+  const BallView& b = *pass.balls;
+  const bool spin = pass.stride == Slices::with_spin && !pass.rule->normal_only();
+  const bool moment = spin && (pass.rule->needs & SCREE_GIVES_MOMENT) != 0;
+  for (uint32_t k = 0; k < n; ++k) {
+    const uint32_t i = list.slots[first + k].row;
+    double* a = pass.slice + (i - pass.first_row) * pass.stride;
+    const V force{s.fx[k], s.fy[k], s.fz[k]}, normal{s.nx[k], s.ny[k], s.nz[k]};
+    const V own = moment ? V{s.mx[k], s.my[k], s.mz[k]} : V{};
+    const V torque = cross(normal, force);
+    const V point{b.x[i] + s.arm_i[k] * normal[0], b.y[i] + s.arm_i[k] * normal[1], b.z[i] + s.arm_i[k] * normal[2]};
+    const V lever{point[0] - pass.wall->centre[0], point[1] - pass.wall->centre[1], point[2] - pass.wall->centre[2]};
+    const V about = cross(lever, force);
+    for (std::size_t c = 0; c < 3; ++c) {
+      a[c] -= force[c];
+      if (spin) a[3 + c] -= s.arm_i[k] * torque[c] + own[c];
+      list.force[c] += force[c];
+      list.moment[c] += about[c] + own[c];
+    }
+    if (pass.sums) a[pass.stride == Slices::with_spin ? 6 : 3] += std::sqrt(dot(force, force));
+    if (!pass.report) continue;
+    const double sliding = pass.rule->normal_only() ? 0.0 : s.sliding[k];
+    for (double value : {force[0], force[1], force[2], own[0], own[1], own[2], sliding, point[0], point[1], point[2]})
+      list.report.push_back(value);
+  }
+}
+
+}  // namespace
+
+void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& balls, const Wall& wall) {
+  const std::size_t words = rule.state_words(), varying = rule.varying.size();
+  if (list.state.size() != list.slots.size() * words) list.state.assign(list.slots.size() * words, 0.0);
+  list.property.resize(list.slots.size() * varying);
+  std::vector<double> all;
+  for (std::size_t k = 0; k < list.slots.size() && varying > 0; ++k) {
+    const WallSlot& slot = list.slots[k];
+    all = rule.words;
+    rule.vary(birth_at_wall(balls, wall, slot.row, slot.normal, balls.radius[slot.row]), all.data());
+    for (std::size_t v = 0; v < varying; ++v) list.property[k * varying + v] = all[rule.varying[v]];
+  }
+}
+
+std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, std::size_t first, std::size_t last,
+                                      double margin) {
+  thread_local Touches touches;
+  std::vector<uint32_t> rows(last - first);
+  for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = static_cast<uint32_t>(first + k);
+  ask(wall, balls, rows.data(), rows.size(), margin, touches);
+  std::vector<uint32_t> near;
+  for (uint32_t k : touches.order) {
+    const uint32_t row = rows[touches.ball[k]];
+    if (near.empty() || near.back() != row) near.push_back(row);
+  }
+  return near;
+}
+
+int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
+  thread_local Touches touches;
+  list.force = list.moment = {};
+  list.report.clear();
+  touches.count = 0;
+  if (!list.candidates.empty())
+    ask(*pass.wall, *pass.balls, list.candidates.data(), list.candidates.size(), pass.rule->reach, touches);
+  carry_over(list, touches, pass);
+  const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
+  int64_t worst = -1;
+  for (std::size_t first = 0; first < list.slots.size(); first += Scratch::size) {
+    const auto n = static_cast<uint32_t>(std::min<std::size_t>(Scratch::size, list.slots.size() - first));
+    if (geometry(list, pass, touches, first, n, s) && worst < 0)
+      for (uint32_t k = 0; k < n && worst < 0; ++k)
+        if (-s.gap[k] > pass.overlap_limit * s.r1[k]) worst = static_cast<int64_t>(first + k);
+    for (std::size_t w = 0; w < words; ++w)
+      for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[(first + k) * words + w];
+    for (std::size_t v = 0; v < varying; ++v)
+      for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[(first + k) * varying + v];
+    run_law(*pass.rule, n, pass.dt, s);
+    for (std::size_t w = 0; w < words; ++w)
+      for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
+    scatter(list, pass, first, n, s);
+  }
+  return worst;
+}
+
+}  // namespace scree::core

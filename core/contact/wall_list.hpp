@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/contact/rule.hpp"
+#include "core/contact/scratch.hpp"
+#include "core/contact/stages.hpp"
+
+namespace scree::core {
+
+/// What a wall contact remembers. Balls touch few walls, so this is a record and not a set of columns.
+struct WallSlot {
+  uint32_t row = 0, patch = 0;
+  std::array<double, 3> normal{};  ///< of the last pass: its tilt turns the state
+};
+
+/// Contacts of the balls of one block with one wall under one rule. Candidates are found at list rebuilds; contacts are
+/// born and end in the pass itself, in order of row and patch.
+struct WallList {
+  uint32_t block = 0;
+  uint16_t wall = 0, rule = 0;
+  std::vector<uint32_t> candidates;         ///< rows near the wall, ascending
+  std::vector<WallSlot> slots;              ///< active contacts, by row and patch
+  std::vector<double> state;                ///< slots x state words
+  std::vector<double> property;             ///< slots x varying words
+  std::array<double, 3> force{}, moment{};  ///< on the wall, of the last pass
+  /// Of the last pass when asked for: per slot force and moment on the wall, sliding, contact point.
+  std::vector<double> report;
+  static constexpr std::size_t report_words = 10;
+};
+
+/// What the wall pass of a list reads and where it adds.
+struct WallPass {
+  const BallView* balls;
+  const uint64_t* id;
+  const Wall* wall;
+  const BoundRule* rule;
+  std::size_t first_row;
+  double* slice;
+  std::size_t stride;
+  double dt, overlap_limit;
+  bool sums, report;
+};
+/// Runs all contacts of the list; returns the index of a slot whose overlap is beyond the limit, or -1.
+int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& scratch);
+
+/// The rule's properties changed: its contacts get them anew, their state stays where it still has the same words.
+void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& balls, const Wall& wall);
+
+/// The rows among [first, last) whose surface is nearer to the wall than margin.
+std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, std::size_t first, std::size_t last,
+                                      double margin);
+
+}  // namespace scree::core

@@ -1,0 +1,294 @@
+#include "core/cycle/engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree::core {
+
+namespace {
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.6g", value);
+  return text;
+}
+
+double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+}  // namespace
+
+Engine::Engine(unsigned threads, int isa) : team(threads), host(balls, walls) { contacts.isa = isa; }
+
+double Engine::local_damping() const {
+  double most = 0;
+  for (const Process& process : processes)
+    if ((process.table->flags & SCREE_LOCAL_DAMPING) != 0 && process.table->damping != nullptr)
+      most = std::max(most, process.table->damping(process.object.get()));
+  return most;
+}
+
+void Engine::check_cell() const {
+  for (int axis = 0; axis < 3; ++axis) {
+    const double least = 2 * (2 * largest_radius_ + skin_ + contacts.book.reach());
+    if (cell.periodic[axis] && cell.length(axis) < least)
+      throw Refusal(Exit::scene,
+                    std::string("the periodic cell is too small along ") + "xyz"[axis] + ": its edge is " +
+                        number(cell.length(axis)) + " m, and " + number(least) +
+                        " m (twice the largest diameter plus skin) are needed so that a pair meets through "
+                        "one image only; enlarge the cell or use smaller balls");
+  }
+}
+
+void Engine::prepare() {
+  const bool spins = contacts.book.spins() || std::any_of(processes.begin(), processes.end(), [](const Process& p) {
+                       return p.needs(SCREE_SPIN) || p.needs(SCREE_MOMENT);
+                     });
+  const std::string reason = contacts.book.spins() ? "a rule has a tangential part" : "a process asked for it";
+  if (spins)
+    for (Column c : {Column::wx, Column::wy, Column::wz}) balls.require(c, reason);
+  for (Column c : {Column::reference_x, Column::reference_y, Column::reference_z})
+    balls.require(c, "skin of the lists");
+  for (BoundRule& rule : contacts.book.rules) rule.refresh(contacts.isa);
+  balls.trim();
+  balls.update_inverse_mass();
+  adders_ = row_order(processes, true);
+  scalers_ = row_order(processes, false);
+  double sum = 0;
+  least_radius_ = largest_radius_ = 0;
+  for (std::size_t row = 0; row < balls.size(); ++row) {
+    const double radius = balls[Column::radius][row];
+    least_radius_ = row == 0 ? radius : std::min(least_radius_, radius);
+    largest_radius_ = std::max(largest_radius_, radius);
+    sum += radius;
+  }
+  if (!contacts.built()) {
+    const double mean = balls.size() > 0 ? sum / static_cast<double>(balls.size()) : 0;
+    skin_ = wanted_skin > 0 ? wanted_skin : 0.2 * std::min(mean, 4 * least_radius_);
+    check_cell();
+  }
+  possible_ = possible_pairs(contacts.book, balls, walls, local_damping());
+  host.fill_views();
+  if (contacts.built()) choose_step();
+}
+
+void Engine::rebuild() {
+  contacts.rebuild(balls, walls, cell, skin_, team);
+  const std::size_t n = balls.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    const double* from = balls[static_cast<Column>(static_cast<int>(Column::x) + axis)];
+    double* to = balls[static_cast<Column>(static_cast<int>(Column::reference_x) + axis)];
+    if (n > 0) std::copy(from, from + n, to);
+  }
+  extent_ = 0;
+  for (const Wall& wall : walls) {
+    if (norm(wall.spin) == 0) continue;
+    for (std::size_t row = 0; row < n; ++row)
+      extent_ = std::max(extent_, norm({balls[Column::x][row] - wall.centre[0], balls[Column::y][row] - wall.centre[1],
+                                        balls[Column::z][row] - wall.centre[2]}) +
+                                      largest_radius_ + skin_);
+  }
+  ball_travel_ = wall_travel_ = 0;
+  ++rebuilds_;
+  choose_step();
+}
+
+void Engine::choose_step() {
+  if (step.automatic() || clock.dt == 0) {
+    const StepBound bound = smaller(step_bound(contacts, balls, walls, cell, local_damping()), possible_);
+    step.take(bound, clock.cycle);
+    if (!step.automatic() && !unsafe && bound.step > 0 && *step.fixed > bound.step)
+      throw Refusal(Exit::scene, "the step of " + number(*step.fixed) + " s is above the stable limit of " +
+                                     number(bound.step) + " s (ball " + std::to_string(bound.ball) + ", " + bound.term +
+                                     "): lower 'timestep' to at most " + number(step.allowed()) +
+                                     " s, leave it out for the automatic step, or say 'unsafe: true'");
+    if (step.step() == 0)
+      throw Refusal(Exit::scene, "nothing limits the step: no contact of the scene has a stiffness; give 'timestep'");
+  }
+  clock.change_step(step.step());
+}
+
+double Engine::exact_travel() {
+  const std::size_t n = balls.size(), part = 8192, parts = (n + part - 1) / part;
+  const double *x = balls[Column::x], *y = balls[Column::y], *z = balls[Column::z];
+  const double *a = balls[Column::reference_x], *b = balls[Column::reference_y], *c = balls[Column::reference_z];
+  std::vector<double> most(parts, 0);
+  team.each_block(parts, [&](std::size_t p) {
+    double square = 0;
+    for (std::size_t row = p * part; row < std::min(n, (p + 1) * part); ++row) {
+      const double dx = x[row] - a[row], dy = y[row] - b[row], dz = z[row] - c[row];
+      const double now = dx * dx + dy * dy + dz * dz;
+      square = now > square ? now : square;
+    }
+    most[p] = square;
+  });
+  double square = 0;
+  for (double value : most) square = std::max(square, value);
+  return std::sqrt(square);
+}
+
+void Engine::detect() {
+  if (!contacts.built()) return rebuild();
+  const auto used_up = [&] { return 2 * ball_travel_ > skin_ || ball_travel_ + wall_travel_ > skin_; };
+  if (!used_up()) return;
+  ball_travel_ = exact_travel();
+  if (used_up()) rebuild();
+}
+
+void Engine::forces() {
+  if (forces_current()) return;
+  detect();
+  const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, report_wanted};
+  const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
+  contact_updates_ += contacts.listed();
+  forces_current_ = true;
+  if (!excess.found) return;
+  const std::string pair = excess.id2 != 0
+                               ? "balls " + std::to_string(excess.id1) + " and " + std::to_string(excess.id2)
+                               : "ball " + std::to_string(excess.id1) + " and wall '" + excess.wall + "'";
+  throw NumericalStop("cycle " + std::to_string(clock.cycle) + ": " + pair + " overlap by " + number(excess.overlap) +
+                          " m, " + number(excess.overlap / excess.radius) + " of the smaller radius (limit " +
+                          number(overlap_limit) + "), under rule '" + excess.rule + "' (contact model '" +
+                          excess.plugin + "'); the step is " + number(clock.dt) + " s, the stable limit " +
+                          number(step.bound().step) +
+                          " s: use stiffer contacts, slower motion or a smaller 'timestep', or raise 'overlap_limit'",
+                      {excess.id1, excess.id2});
+}
+
+MotionInput Engine::motion_input() {
+  return {&balls,      &contacts.slices(), &adders_,      &scalers_, contacts.isa,
+          clock.cycle, clock.time(),       clock.dt_back, clock.dt};
+}
+
+void Engine::stop_not_finite() {
+  std::size_t worst = balls.size();
+  for (std::size_t row = 0; row < balls.size() && worst == balls.size(); ++row) {
+    double sum = 0;
+    for (Column c :
+         {Column::x, Column::y, Column::z, Column::vx, Column::vy, Column::vz, Column::wx, Column::wy, Column::wz})
+      if (balls.has(c)) sum += balls[c][row];
+    if (!std::isfinite(sum)) worst = row;
+  }
+  const uint64_t id = worst < balls.size() ? balls.id()[worst] : 0;
+  std::string who = "an applied force or a process";
+  if (worst < balls.size()) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) sum += contacts.slices().record(worst)[c];
+    if (!std::isfinite(sum)) {
+      who = "a contact model (";
+      for (const BoundRule& rule : contacts.book.rules)
+        if (rule.model != nullptr) who += (who.back() == '(' ? "" : ", ") + rule.model_name;
+      who += ")";
+    }
+  }
+  throw NumericalStop(
+      "cycle " + std::to_string(clock.cycle) + ": the force, position or velocity of ball " + std::to_string(id) +
+          " is not a finite number; it came from " + who + "; the step is " + number(clock.dt) +
+          " s, the stable limit " + number(step.bound().step) +
+          " s: look at this ball in failure.csv, check the properties of its contacts, or lower 'timestep'",
+      {id});
+}
+
+void Engine::check_speed(double fastest) {
+  if (!(fastest * clock.dt > 0.5 * least_radius_)) return;
+  for (std::size_t row = 0; row < balls.size(); ++row) {
+    const double speed = norm({balls[Column::vx][row], balls[Column::vy][row], balls[Column::vz][row]});
+    if (speed * clock.dt <= 0.5 * balls[Column::radius][row]) continue;
+    const uint64_t id = balls.id()[row];
+    throw NumericalStop("cycle " + std::to_string(clock.cycle) + ": ball " + std::to_string(id) + " moves " +
+                            number(speed * clock.dt / balls[Column::radius][row]) + " of its radius in one cycle (" +
+                            number(speed) + " m/s with a step of " + number(clock.dt) +
+                            " s), so it could pass through others unseen: lower 'timestep', or slow it down",
+                        {id});
+  }
+}
+
+void Engine::drift_walls() {
+  double most = 0;
+  for (Wall& wall : walls) {
+    most = std::max(most, wall.travel(clock.dt, extent_));
+    wall.drift(clock.dt);
+  }
+  wall_travel_ += most;
+}
+
+void Engine::run_model_processes() {
+  bool any = false;
+  for (Process& process : processes) {
+    if (process.table->step == nullptr) continue;
+    if (process.table->every > 1 && clock.cycle % process.table->every != 0) continue;
+    if (!any) host.fill_views();
+    any = true;
+    const scree_step now{sizeof(scree_step),   0,          clock.cycle, clock.time(), clock.dt, process.sums.data(),
+                         process.state.data(), host.host()};
+    char why[512] = "";
+    const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
+    if (process.table->step(process.object.get(), &now, &refusal) != 0)
+      throw Refusal(Exit::plugin, "process '" + process.name + "' stopped the run at cycle " +
+                                      std::to_string(clock.cycle) + ": " + why);
+  }
+  if (any) host.take_views();
+}
+
+void Engine::advance() {
+  forces();
+  const MotionInput input = motion_input();
+  Slices& slices = contacts.slices();
+  std::vector<MotionResult> results(slices.blocks());
+  team.each_block(slices.blocks(), [&](std::size_t block) { results[block] = move_block(input, block); });
+  double fastest = 0;
+  bool finite = true;
+  for (Process& process : processes) process.sums.assign(process.table->sums, 0.0);
+  for (const MotionResult& result : results) {
+    fastest = std::max(fastest, result.fastest);
+    finite = finite && result.finite;
+    const double* sums = result.sums.data();
+    for (const auto* order : {&adders_, &scalers_})
+      for (const Process* process : *order)
+        for (uint32_t k = 0; k < process->table->sums; ++k) const_cast<Process*>(process)->sums[k] += *sums++;
+  }
+  if (!finite) stop_not_finite();
+  check_speed(fastest);
+  drift_walls();
+  ball_travel_ += fastest * clock.dt;
+  clock.dt_back = clock.dt_law = clock.dt;
+  ++clock.cycle;
+  forces_current_ = false;
+  run_model_processes();
+}
+
+void Engine::synchronize() {
+  if (clock.dt_back > 0) {
+    const Observation& now = observe();
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::copy(now.velocity[c].begin(), now.velocity[c].end(),
+                balls[static_cast<Column>(static_cast<std::size_t>(Column::vx) + c)]);
+      if (balls.has(Column::wx))
+        std::copy(now.spin[c].begin(), now.spin[c].end(),
+                  balls[static_cast<Column>(static_cast<std::size_t>(Column::wx) + c)]);
+    }
+    clock.dt_back = 0;
+  }
+  forces_outdated();
+}
+
+void Engine::forces_outdated() {
+  if (forces_current_) clock.dt_law = 0;
+  forces_current_ = false;
+}
+
+Engine::Loop Engine::loop() const {
+  return {ball_travel_, wall_travel_,    skin_, extent_, static_cast<uint8_t>(forces_current()),
+          rebuilds_,    contact_updates_};
+}
+
+void Engine::restore(const Loop& loop) {
+  ball_travel_ = loop.ball_travel;
+  wall_travel_ = loop.wall_travel;
+  skin_ = loop.skin;
+  extent_ = loop.extent;
+  forces_current_ = loop.forces_current != 0;
+  rebuilds_ = loop.rebuilds;
+  contact_updates_ = loop.contact_updates;
+}
+
+}  // namespace scree::core

@@ -1,0 +1,121 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/threads.hpp"
+#include "core/contact/contacts.hpp"
+#include "core/contact/step_bound.hpp"
+#include "core/cycle/motion.hpp"
+#include "core/cycle/observation.hpp"
+#include "core/cycle/process.hpp"
+#include "core/cycle/step_control.hpp"
+#include "core/world/balls.hpp"
+#include "core/world/cell.hpp"
+#include "core/world/wall.hpp"
+
+namespace scree::core {
+
+/// A run that went wrong at a known cycle: exit 5. `balls` are the ids to look at first.
+class NumericalStop : public Refusal {
+ public:
+  NumericalStop(const std::string& message, std::vector<uint64_t> worst)
+      : Refusal(Exit::numerical, message), balls(std::move(worst)) {}
+  std::vector<uint64_t> balls;
+};
+
+/// Model time as a count: no rounding piles up while the step stays the same.
+struct Clock {
+  uint64_t cycle = 0;
+  uint64_t base_cycle = 0;
+  double base_time = 0;
+  double dt = 0;       ///< of the coming drift, s
+  double dt_back = 0;  ///< of the drift that led here; 0 after a start or an edit of velocities, s
+  double dt_law = 0;   ///< what laws take their increments over: dt_back, or 0 when this time is evaluated again, s
+  double time() const { return base_time + static_cast<double>(cycle - base_cycle) * dt; }
+  void change_step(double fresh) {
+    if (fresh == dt) return;
+    base_time = time();
+    base_cycle = cycle;
+    dt = fresh;
+  }
+};
+
+/// The timestep loop over everything the kernel keeps. The state stands at time n: positions x(n), velocities v(n-1/2).
+/// forces() completes time n; advance() goes to n+1.
+class Engine {
+ public:
+  Engine(unsigned threads, int isa);
+
+  Balls balls;
+  std::vector<Wall> walls;
+  PeriodicCell cell;
+  Contacts contacts;
+  std::vector<Process> processes;
+  StepControl step;
+  Clock clock;
+  Team team;
+  ProcessHost host;
+  double overlap_limit = 0.5;
+  double overlap_warning = 0.05;
+  double wanted_skin = 0;      ///< m; 0: chosen from the radii
+  bool unsafe = false;         ///< the user accepts a step above the bound
+  bool sums_wanted = false;    ///< forces() also sums contact force sizes (unbalanced ratio)
+  bool report_wanted = false;  ///< forces() also keeps every contact's force
+  std::function<void(const std::string&)> warn = [](const std::string&) {};
+
+  /// Call after any edit of balls, walls, rules or processes: makes the columns exist that the scene needs, and chooses
+  /// the step. Does not touch contacts' memory.
+  void prepare();
+  /// Detection when the skin is used up, then all contact laws. Does nothing when the forces of this time are there.
+  void forces();
+  /// Reads time n; forces() must have run. Never changes the trajectory.
+  const Observation& observe();
+  /// Row processes, kick, drift, model processes: to time n+1.
+  void advance();
+  /// Call before an edit of velocities or balls: turns v(n-1/2) into v(n), so that the next kick is a half one.
+  void synchronize();
+  /// Call after an edit: the forces of this time are evaluated again, with increments of zero.
+  void forces_outdated();
+
+  double skin() const { return skin_; }
+  uint64_t rebuilds() const { return rebuilds_; }
+  uint64_t contact_updates() const { return contact_updates_; }
+  bool forces_current() const { return forces_current_ && contacts.built(); }
+  double local_damping() const;
+  double largest_overlap() const;  ///< of the smaller radius, over active contacts, now
+  uint64_t state_hash() const;     ///< over positions, velocities, spins and contact state in id order
+
+  /// What a checkpoint holds beside columns.
+  struct Loop {
+    double ball_travel, wall_travel, skin, extent;
+    uint8_t forces_current;
+    uint64_t rebuilds, contact_updates;
+  };
+  Loop loop() const;
+  void restore(const Loop& loop);
+  void detect();  ///< rebuilds when the skin is used up
+
+ private:
+  void rebuild();
+  void choose_step();
+  void check_cell() const;
+  double exact_travel();
+  void drift_walls();
+  void run_model_processes();
+  void stop_not_finite();
+  void check_speed(double fastest);
+  MotionInput motion_input();
+  Observation observation_;
+  std::vector<const Process*> adders_, scalers_;
+  StepBound possible_;
+  double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
+  double ball_travel_ = 0, wall_travel_ = 0;
+  uint64_t rebuilds_ = 0, contact_updates_ = 0;
+  bool forces_current_ = false, warned_overlap_ = false;
+};
+
+}  // namespace scree::core

@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "core/contact/slices.hpp"
+#include "core/cycle/process.hpp"
+#include "core/world/balls.hpp"
+
+namespace scree::core {
+
+/// One motion pass: halo sum, row processes, kick, drift.
+struct MotionInput {
+  Balls* balls = nullptr;
+  Slices* slices = nullptr;
+  const std::vector<const Process*>* adders = nullptr;
+  const std::vector<const Process*>* scalers = nullptr;
+  int isa = 0;
+  uint64_t cycle = 0;
+  double time = 0, dt_back = 0, dt = 0;  ///< s; dt_back is 0 after a start or an edit
+};
+
+/// What the guards and the next cycle need to know of a pass, by block.
+struct MotionResult {
+  double fastest = 0;  ///< largest |v|, m/s
+  bool finite = true;
+  std::vector<double> sums;  ///< of the row processes, one after the other
+};
+
+MotionResult move_block(const MotionInput& input, std::size_t block);
+
+/// Net forces of up to SCREE_ROWS rows in first-level cache, one array per component.
+struct RowForces {
+  double force[3][SCREE_ROWS], moment[3][SCREE_ROWS];
+};
+/// Contact forces (folded), applied forces and processes that add; then, unless `net` is asked for, those that scale.
+/// `sums` is null on an evaluation for output.
+void gather_forces(const MotionInput& input, std::size_t first, std::size_t n, RowForces& forces, bool scale,
+                   double* sums);
+void apply_scalers(const MotionInput& input, std::size_t first, std::size_t n, RowForces& forces, double* sums);
+
+}  // namespace scree::core

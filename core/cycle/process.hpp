@@ -1,0 +1,54 @@
+#pragma once
+#include <scree/abi.h>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/world/balls.hpp"
+#include "core/world/wall.hpp"
+
+namespace scree::core {
+
+/// A process of the scene: a plug-in's object, what it saves and what it published.
+struct Process {
+  std::string name;
+  const scree_process* table = nullptr;
+  std::shared_ptr<void> object;
+  std::vector<double> state;  ///< saved words
+  std::vector<double> sums;   ///< totals of the row sums of the last cycle
+
+  bool has_rows() const { return table->rows[0] != nullptr; }
+  bool adds() const { return (table->flags & SCREE_ADDS_FORCE) != 0; }
+  bool needs(uint32_t column) const;
+};
+
+/// Processes that act on rows, in the order they run: those that add forces, then those that scale them; by name in
+/// each.
+std::vector<const Process*> row_order(const std::vector<Process>& processes, bool adding);
+
+/// What a model process may ask of the kernel.
+class ProcessHost {
+ public:
+  ProcessHost(Balls& balls, std::vector<Wall>& walls);
+  const scree_host* host() const { return &host_; }
+  void fill_views();  ///< from walls, before a step
+  void take_views();  ///< velocities back to walls, after it
+  std::map<std::string, double> published;
+
+ private:
+  static int wall(void* self, const char* name, uint32_t* handle);
+  static scree_wall_view* wall_view(void* self, uint32_t handle);
+  static void publish(void* self, const char* quantity, double value);
+  static const double* column(void* self, uint32_t column, uint32_t component, uint64_t* rows);
+  static const uint64_t* ids(void* self, uint64_t* rows);
+  static int read(void* self, const char* quantity, double* value);
+  Balls& balls_;
+  std::vector<Wall>& walls_;
+  std::vector<scree_wall_view> views_;
+  scree_host host_{};
+};
+
+}  // namespace scree::core

@@ -1,0 +1,20 @@
+#pragma once
+#include <scree/abi.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace scree::core {
+
+/// What the header of a plug-in says of itself, read from the file. Pointers are not valid in this copy.
+struct HeaderNumbers {
+  uint32_t magic, header_size, abi_major, abi_minor, component_count, component_size;
+};
+
+/// Reads a library as bytes, without running any of it, and refuses what must not be loaded: not an x86-64 ELF shared
+/// library, other exports than `scree_plugin`, symbols with a binding that is shared between libraries, a search path
+/// or a path of its own for other libraries. `file` is for messages. Throws Refusal(Exit::plugin). [any thread]
+HeaderNumbers check_elf(std::span<const std::byte> bytes, const std::filesystem::path& file);
+
+}  // namespace scree::core

@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "core/base/isa.hpp"
+#include "core/plugin/catalogue.hpp"
+#include "core/run/summary.hpp"
+#include "core/scene/scene.hpp"
+
+namespace scree::core {
+
+/// What the command line decides about a run. Nothing here changes the trajectory.
+struct RunOptions {
+  std::string output;        ///< folder; "": the scene's name with .out
+  bool restart = false;      ///< an unfinished earlier run may be moved away
+  bool quiet = false, colour = true;
+  unsigned threads = 0;      ///< 0: as many as cores, but not more than blocks of balls
+  Isa isa = detect_isa();
+  std::optional<uint64_t> cycles;  ///< stop after this many cycles of this call, resumable
+  std::string stage;         ///< stop after this stage, resumable; "": run all
+  std::string from;          ///< a saved state to begin from instead of the scene's own start
+  double time_limit = 0;     ///< s of wall time, 0: none; then exit 75, resumable
+  bool allow_plugin_change = false;  ///< resume although a plug-in is not the one that was saved with
+};
+
+/// What a run left behind, for the terminal.
+struct RunResult {
+  Exit code = Exit::done;
+  Summary summary;
+  std::string folder;
+};
+
+/// Runs a scene into its output folder. Refusals before the folder exists are thrown; later ones end in the summary
+/// and in the result's code.
+RunResult run_scene(Scene scene, Catalogue& catalogue, const RunOptions& options);
+
+/// Goes on with a run that was interrupted, from its last checkpoint. `previous`: from the one before.
+RunResult resume_run(const std::string& folder, Catalogue& catalogue, const RunOptions& options, bool previous);
+
+/// Threads for a scene: never more than it has blocks of balls.
+unsigned threads_for(unsigned wanted, std::size_t balls);
+
+}  // namespace scree::core

@@ -1,0 +1,2 @@
+include(${CMAKE_CURRENT_LIST_DIR}/scree-targets.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/ScreePlugin.cmake)

@@ -1,0 +1,73 @@
+#pragma once
+/// What a process sees of the running scene in `prepare` and `step`. [one thread]; nothing here may be kept beyond the
+/// call except the handle of a wall.
+#include <scree/abi.h>
+#include <scree/math.hpp>
+
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace scree {
+
+/// A wall that `Host::wall` found; stays valid while the scene runs.
+struct Wall {
+  uint32_t handle = UINT32_MAX;
+};
+
+/// The way to walls, quantities and columns.
+class Host {
+ public:
+  explicit Host(const scree_host& table) : table_(&table) {}
+
+  /// Looks a wall up by its name in the scene; throws when there is none.
+  Wall wall(const std::string& name) const {
+    Wall found;
+    if (table_->wall(table_->self, name.c_str(), &found.handle) == 0)
+      throw std::runtime_error("there is no wall '" + name + "'");
+    return found;
+  }
+  /// Force (N), moment (N m), area (m2) and stiffness (N/m) of the wall; its velocity and spin may be written in
+  /// `step`.
+  scree_wall_view& view(Wall wall) const {
+    scree_wall_view* found = table_->wall_view(table_->self, wall.handle);
+    if (found == nullptr) throw std::runtime_error("the wall is no longer there");
+    return *found;
+  }
+  /// Makes `processes.NAME.quantity` readable by scenes, recorders and other processes.
+  void publish(const char* quantity, double value) const { table_->publish(table_->self, quantity, value); }
+  /// A published quantity; throws when there is none of this name.
+  double read(const std::string& quantity) const {
+    double value = 0;
+    if (table_->read(table_->self, quantity.c_str(), &value) == 0)
+      throw std::runtime_error("there is no quantity '" + quantity + "'");
+    return value;
+  }
+  /// One component of a column over all balls, in row order; empty when the scene does not keep it. Rows change places
+  /// between calls, so keep ids, never rows.
+  std::span<const double> column(uint32_t column, uint32_t component) const {
+    uint64_t rows = 0;
+    const double* first = table_->column(table_->self, column, component, &rows);
+    return first == nullptr ? std::span<const double>() : std::span<const double>(first, rows);
+  }
+  /// The id of each row.
+  std::span<const uint64_t> ids() const {
+    uint64_t rows = 0;
+    const uint64_t* first = table_->ids(table_->self, &rows);
+    return first == nullptr ? std::span<const uint64_t>() : std::span<const uint64_t>(first, rows);
+  }
+
+ private:
+  const scree_host* table_;
+};
+
+/// One call of `step`.
+struct Step {
+  explicit Step(const scree_step& table) : cycle(table.cycle), time(table.time), dt(table.dt), host(*table.host) {}
+  uint64_t cycle;
+  double time;  ///< s
+  double dt;    ///< s
+  Host host;
+};
+
+}  // namespace scree
