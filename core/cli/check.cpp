@@ -7,7 +7,9 @@
 #include "core/cli/flags.hpp"
 #include "core/cli/output.hpp"
 #include "core/run/explain.hpp"
+#include "core/run/fields.hpp"
 #include "core/run/quantities.hpp"
+#include "core/run/run.hpp"
 
 namespace scree::core {
 
@@ -26,15 +28,18 @@ std::string ok_text(const Simulation& simulation) {
 }
 
 std::string ok_json(const Simulation& simulation, const std::vector<std::string>& warnings) {
-  nlohmann::ordered_json json{{"scene", simulation.scene.file},
-                              {"ok", true},
-                              {"balls", simulation.engine.balls.size()},
-                              {"walls", simulation.engine.walls.size()},
-                              {"rules", simulation.rules.size()},
-                              {"stages", simulation.scene.stages.size()}};
+  nlohmann::ordered_json json{{"scene", simulation.scene.file},          {"ok", true},
+                              {"balls", simulation.engine.balls.size()}, {"walls", simulation.engine.walls.size()},
+                              {"rules", simulation.rules.size()},        {"stages", simulation.scene.stages.size()}};
   if (simulation.engine.step.step() > 0) json["timestep"] = simulation.engine.step.step();
   json["warnings"] = warnings;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+/// Names that only the pieces of the scene tell: quantities and fields.
+void check_records(Simulation& simulation) {
+  Quantities(simulation).check_scene();
+  for (const Record& record : simulation.scene.record) chosen_fields(record.fields, record.name);
 }
 
 }  // namespace
@@ -54,15 +59,11 @@ Deed declare_check(CLI::App& app) {
     const auto catalogue = flags->common.catalogue();
     Scene scene = flags->scene.read(*catalogue);
     std::vector<std::string> warnings = scene.warnings;
-    Simulation simulation(std::move(scene), *catalogue, 1, static_cast<int>(detect_isa()));
-    simulation.warn = simulation.engine.warn = [&](const std::string& text) {
-      log::write(log::Level::warning, text);
-      warnings.push_back(text);
-    };
-    simulation.set_up();
-    stand_before_first_cycle(simulation);
-    Quantities(simulation).check_scene();
-    print(flags->json ? ok_json(simulation, warnings) : ok_text(simulation));
+    for (const std::string& warning : warnings) print_note(warning);
+    const auto simulation = begin_scene(std::move(scene), *catalogue, {});
+    check_records(*simulation);
+    stand_before_first_cycle(*simulation);
+    print(flags->json ? ok_json(*simulation, warnings) : ok_text(*simulation));
     return Exit::done;
   };
 }

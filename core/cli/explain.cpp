@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "core/base/log.hpp"
 #include "core/cli/command.hpp"
 #include "core/cli/flags.hpp"
 #include "core/cli/output.hpp"
+#include "core/run/run.hpp"
 
 namespace scree::core {
 
@@ -23,11 +23,11 @@ Deed declare_explain(CLI::App& app) {
   return [flags] {
     flags->common.open_log();
     const auto catalogue = flags->common.catalogue();
-    Simulation simulation(flags->scene.read(*catalogue), *catalogue, 1, static_cast<int>(detect_isa()));
-    simulation.warn = simulation.engine.warn = [](const std::string& text) { log::write(log::Level::warning, text); };
-    simulation.set_up();
-    stand_before_first_cycle(simulation);
-    const Explanation explanation = explain(simulation);
+    Scene scene = flags->scene.read(*catalogue);
+    for (const std::string& warning : scene.warnings) print_note(warning);
+    const auto simulation = begin_scene(std::move(scene), *catalogue, {});
+    stand_before_first_cycle(*simulation);
+    const Explanation explanation = explain(*simulation);
     print(flags->json ? to_json(explanation) : to_text(explanation));
     return Exit::done;
   };

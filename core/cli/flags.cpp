@@ -7,7 +7,6 @@
 
 #include "core/base/isa.hpp"
 #include "core/base/log.hpp"
-#include "core/cli/output.hpp"
 #include "core/scene/units.hpp"
 
 namespace scree::core {
@@ -82,9 +81,7 @@ Scene SceneFlags::read(Catalogue& catalogue) const {
   }
   if (const std::string data = data_folder(); !data.empty())
     if (fs::is_directory(data + "/configs")) options.include_dirs.push_back(data + "/configs");
-  Scene scene = read_scene(options, catalogue);
-  for (const std::string& warning : scene.warnings) print_note(warning);
-  return scene;
+  return read_scene(options, catalogue);
 }
 
 void RunFlags::declare(CLI::App& app) {

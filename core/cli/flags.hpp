@@ -31,7 +31,7 @@ struct SceneFlags {
   std::vector<std::string> set;
 
   void declare(CLI::App& app, bool with_file);
-  Scene read(Catalogue& catalogue) const;  ///< its warnings go to stderr
+  Scene read(Catalogue& catalogue) const;
 };
 
 /// How a run is carried out; the texts are read by `options`, which says what is wrong with them.
@@ -39,7 +39,7 @@ struct RunFlags {
   std::string threads, isa, cycles, time_limit, output, stage, from;
   bool restart = false;
 
-  void declare(CLI::App& app);           ///< threads, isa, cycles, time limit
+  void declare(CLI::App& app);            ///< threads, isa, cycles, time limit
   void declare_beginning(CLI::App& app);  ///< output, stage, from, restart
   RunOptions options(const CommonFlags& common) const;
 };

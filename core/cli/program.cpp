@@ -17,8 +17,7 @@ namespace {
 
 std::string help_text() {
   std::size_t width = 0;
-  for (const Command& command : commands())
-    width = std::max(width, command.name.size() + 1 + command.operands.size());
+  for (const Command& command : commands()) width = std::max(width, command.name.size() + 1 + command.operands.size());
   std::string out = "scree " SCREE_VERSION ": discrete element simulation with plug-in physics\n\n";
   for (const Command& command : commands())
     out += fmt::format("scree {:<{}}  {}\n", command.name + " " + command.operands, width, command.line);
@@ -63,8 +62,8 @@ void refuse_rest(const CLI::App& app, const Command& command) {
   }
   for (const std::string& word : app.remaining())
     if (word != "--")
-      throw Refusal(Exit::usage, "'" + word + "' is one word too many: scree " + command.name + " " +
-                                     command.operands + "  (scree " + command.name + " -h says more)");
+      throw Refusal(Exit::usage, "'" + word + "' is one word too many: scree " + command.name + " " + command.operands +
+                                     "  (scree " + command.name + " -h says more)");
 }
 
 Exit run_command(const Command& command, const std::vector<std::string>& words) {
@@ -88,7 +87,7 @@ Exit run_command(const Command& command, const std::vector<std::string>& words) 
 
 Exit dispatch(std::vector<std::string> words) {
   if (words.empty()) {
-    print(help_text());
+    print_note(help_text());
     return Exit::usage;
   }
   const std::string first = words.front();

@@ -160,8 +160,7 @@ SavedContacts read_contacts(const ArchiveReader& in, const Balls& balls, const P
   saved.rows_before = in.get<uint32_t>("contacts/rows_before");
   want(saved.rows_before.empty() || (!saved.built && saved.rows_before.size() <= balls.size()), in,
        "contacts/rows_before", "it does not fit the balls");
-  for (uint32_t row : saved.rows_before)
-    want(row < saved.rows, in, "contacts/rows_before", "a row is out of range");
+  for (uint32_t row : saved.rows_before) want(row < saved.rows, in, "contacts/rows_before", "a row is out of range");
   for (std::size_t k = 0; k < saved.rules.size(); ++k) {
     saved.state_names.push_back(in.get_texts(section_of(k, "state_names")));
     saved.varying.push_back(static_cast<std::size_t>(in.get_value<uint64_t>(section_of(k, "varying"))));

@@ -9,7 +9,7 @@ namespace scree::core {
 
 /// The contact lists as they lie in a file, checked against themselves: rows in range and in order, sizes that match.
 struct SavedContacts {
-  std::vector<std::string> rules, models;            ///< of each touch list
+  std::vector<std::string> rules, models;             ///< of each touch list
   std::vector<std::vector<std::string>> state_names;  ///< of each touch list's rule
   std::vector<std::size_t> varying;                   ///< varying words of each touch list's rule
   std::vector<TouchList> lists;

@@ -1,5 +1,6 @@
 #include "core/run/engine_state.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/run/ball_state.hpp"
@@ -156,9 +157,11 @@ void load_engine(Engine& engine, const ArchiveReader& in, std::size_t groups) {
   load_walls(engine.walls, in);
   load_processes(engine.processes, in);
   engine.contacts.drop_lists();
+  const double* inverse = engine.balls[Column::inverse_mass];
+  const std::vector<double> saved_inverse(inverse, inverse + engine.balls.size());
   engine.prepare();
-  // What prepare() makes of a moment between two rebuilds gives way to what the run had.
-  load_balls(engine.balls, in, groups);
+  // What prepare() makes of this moment gives way to what the run had.
+  std::copy(saved_inverse.begin(), saved_inverse.end(), engine.balls[Column::inverse_mass]);
   load_contacts(engine.contacts, in, engine.balls, engine.cell, engine.walls.size(), engine.team);
   load_published(engine.host.published, in);
   load_clock(engine.clock, in);

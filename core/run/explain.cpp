@@ -244,8 +244,7 @@ Explanation explain(const Simulation& simulation) {
   for (const Found& file : simulation.catalogue.found()) found.insert({file.kind, file.name});
   out.plugins_found = found.size();
   for (const Component* component : simulation.catalogue.opened())
-    out.plugins.push_back(
-        {kind_name(component->kind), component->name, component->version, component->file.string()});
+    out.plugins.push_back({kind_name(component->kind), component->name, component->version, component->file.string()});
   out.cycle = phases(simulation);
   out.per_ball = ball_storage(engine);
   out.per_contact = contact_storage(engine);

@@ -29,7 +29,8 @@ std::string storage_text(const std::vector<Stored>& parts) {
   std::size_t width = 0;
   for (const Stored& part : parts) width = std::max(width, part.name.size());
   std::string out;
-  for (const Stored& part : parts) out += fmt::format("  {:>4}  {:<{}}  {}\n", part.bytes, part.name, width, part.reason);
+  for (const Stored& part : parts)
+    out += fmt::format("  {:>4}  {:<{}}  {}\n", part.bytes, part.name, width, part.reason);
   return out;
 }
 
@@ -56,9 +57,9 @@ std::string contacts_text(const Explanation& e) {
                        sum(rule.parts)) +
            storage_text(rule.parts);
   if (!e.per_wall_contact.empty())
-    out += fmt::format("bytes of a wall contact, beside state and properties of its rule: {}\n",
-                       sum(e.per_wall_contact)) +
-           storage_text(e.per_wall_contact);
+    out +=
+        fmt::format("bytes of a wall contact, beside state and properties of its rule: {}\n", sum(e.per_wall_contact)) +
+        storage_text(e.per_wall_contact);
   return out;
 }
 

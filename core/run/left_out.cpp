@@ -80,18 +80,23 @@ void about_processes(const Simulation& simulation, std::vector<std::string>& out
   if (!models) out.push_back("model processes: the scene names none");
 }
 
+bool shows_contacts(const Record& record) {
+  return std::any_of(record.fields.begin(), record.fields.end(),
+                     [](const Name& field) { return field.text.starts_with("contact."); });
+}
+
 void about_output(const Simulation& simulation, std::vector<std::string>& out) {
   const Scene& scene = simulation.scene;
-  bool contacts = false;
-  for (const Record& record : scene.record)
-    if (record.writer.component != nullptr)
-      contacts = contacts || ((record.writer.component->writer().wants & SCREE_WANTS_CONTACTS) != 0 &&
-                              !record.fields.empty());
+  // `contacts.sliding` and `contacts.ID1.ID2.*` are read from the contacts; other counts are not.
+  bool contacts = std::any_of(scene.record.begin(), scene.record.end(), shows_contacts), sums = false;
+  for (const std::string& name : names_read(scene)) {
+    contacts = contacts || name.starts_with("contacts.sliding") ||
+               (name.starts_with("contacts.") && name.find_first_of("0123456789") == 9);
+    sums = sums || name.starts_with("unbalanced");
+  }
   if (scene.record.empty()) out.push_back("histories and views: the scene has no 'record'");
-  if (!contacts) out.push_back("force, moment and sliding of each contact: no writer asks for contact fields");
-  const std::set<std::string> read = names_read(scene);
-  if (!read.contains("unbalanced") && !read.contains("unbalanced.max"))
-    out.push_back("sums of contact force sizes: nothing reads 'unbalanced'");
+  if (!contacts) out.push_back("force, moment and sliding of each contact: nothing records or reads them");
+  if (!sums) out.push_back("sums of contact force sizes: nothing reads 'unbalanced'");
 }
 
 void about_plugins(const Simulation& simulation, std::vector<std::string>& out) {

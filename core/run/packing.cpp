@@ -6,6 +6,12 @@
 
 namespace scree::core {
 
+void Packer::raw(const void* from, std::size_t size) {
+  const std::size_t at = bytes_.size();
+  bytes_.resize(at + size);
+  if (size > 0) std::memcpy(bytes_.data() + at, from, size);
+}
+
 Unpacker::Unpacker(const ArchiveReader& in, std::string section)
     : in_(in), section_(std::move(section)), bytes_(in.get<uint8_t>(section_)) {}
 

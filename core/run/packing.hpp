@@ -25,10 +25,7 @@ class Packer {
   const std::vector<uint8_t>& bytes() const { return bytes_; }
 
  private:
-  void raw(const void* from, std::size_t size) {
-    const auto* first = static_cast<const uint8_t*>(from);
-    bytes_.insert(bytes_.end(), first, first + size);
-  }
+  void raw(const void* from, std::size_t size);
   std::vector<uint8_t> bytes_;
 };
 

@@ -253,13 +253,13 @@ void Quantities::save(ArchiveWriter& archive, const std::string& prefix) const {
     names.push_back(name);
     seen.push_back(extreme.seen);
   }
-  archive.put_texts(prefix + "extremes", names);
-  archive.put(prefix + "extremes.seen", seen);
+  archive.put_texts(prefix + "/extremes", names);
+  archive.put(prefix + "/extremes.seen", seen);
 }
 
 void Quantities::load(const ArchiveReader& archive, const std::string& prefix) {
-  const std::vector<std::string> names = archive.get_texts(prefix + "extremes");
-  const std::vector<double> seen = archive.get<double>(prefix + "extremes.seen", names.size());
+  const std::vector<std::string> names = archive.get_texts(prefix + "/extremes");
+  const std::vector<double> seen = archive.get<double>(prefix + "/extremes.seen", names.size());
   for (std::size_t k = 0; k < names.size(); ++k)
     if (Extreme* found = extreme(names[k])) found->seen = seen[k];
 }

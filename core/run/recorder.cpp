@@ -90,7 +90,7 @@ void Recorder::close() {
 }
 
 void Recorder::save(ArchiveWriter& archive, const std::string& prefix) const {
-  archive.put(prefix + "counters", std::vector<uint64_t>{frames_, last_cycle_, passed_});
+  archive.put(prefix + "/counters", std::vector<uint64_t>{frames_, last_cycle_, passed_});
   std::vector<uint8_t> bytes;
   if (table_.save != nullptr) {
     const uint64_t size = table_.save(writer_.get(), nullptr, 0);
@@ -98,15 +98,15 @@ void Recorder::save(ArchiveWriter& archive, const std::string& prefix) const {
     if (size == UINT64_MAX || (size > 0 && table_.save(writer_.get(), bytes.data(), size) != size))
       throw Refusal(Exit::plugin, "record '" + record_.name + "': the writer could not save its state");
   }
-  archive.put(prefix + "writer", bytes);
+  archive.put(prefix + "/writer", bytes);
 }
 
 void Recorder::load(const ArchiveReader& archive, const std::string& prefix) {
-  const std::vector<uint64_t> counters = archive.get<uint64_t>(prefix + "counters", 3);
+  const std::vector<uint64_t> counters = archive.get<uint64_t>(prefix + "/counters", 3);
   frames_ = counters[0];
   last_cycle_ = counters[1];
   passed_ = counters[2];
-  const std::vector<uint8_t> bytes = archive.get<uint8_t>(prefix + "writer");
+  const std::vector<uint8_t> bytes = archive.get<uint8_t>(prefix + "/writer");
   open();
   if (table_.load != nullptr && table_.load(writer_.get(), bytes.data(), bytes.size()) != 0)
     throw Refusal(Exit::io, archive.path() + ": section '" + prefix + "writer': the writer of record '" + record_.name +

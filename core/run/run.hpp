@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,17 +11,19 @@
 
 namespace scree::core {
 
+class Simulation;
+
 /// What the command line decides about a run. Nothing here changes the trajectory.
 struct RunOptions {
-  std::string output;        ///< folder; "": the scene's name with .out
-  bool restart = false;      ///< an unfinished earlier run may be moved away
+  std::string output;    ///< folder; "": the scene's name with .out
+  bool restart = false;  ///< an unfinished earlier run may be moved away
   bool quiet = false, colour = true;
-  unsigned threads = 0;      ///< 0: as many as cores, but not more than blocks of balls
+  unsigned threads = 0;  ///< 0: as many as cores, but not more than blocks of balls
   Isa isa = detect_isa();
-  std::optional<uint64_t> cycles;  ///< stop after this many cycles of this call, resumable
-  std::string stage;         ///< stop after this stage, resumable; "": run all
-  std::string from;          ///< a saved state to begin from instead of the scene's own start
-  double time_limit = 0;     ///< s of wall time, 0: none; then exit 75, resumable
+  std::optional<uint64_t> cycles;    ///< stop after this many cycles of this call, resumable
+  std::string stage;                 ///< stop after this stage, resumable; "": run all
+  std::string from;                  ///< a saved state to begin from instead of the scene's own start
+  double time_limit = 0;             ///< s of wall time, 0: none; then exit 75, resumable
   bool allow_plugin_change = false;  ///< resume although a plug-in is not the one that was saved with
 };
 
@@ -30,6 +33,9 @@ struct RunResult {
   Summary summary;
   std::string folder;
 };
+
+/// A scene brought to where its stages begin: set up, or loaded from the state that it starts from.
+std::unique_ptr<Simulation> begin_scene(Scene scene, Catalogue& catalogue, const RunOptions& options);
 
 /// Runs a scene into its output folder. Refusals before the folder exists are thrown; later ones end in the summary
 /// and in the result's code.

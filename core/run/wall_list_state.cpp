@@ -134,9 +134,8 @@ std::vector<WallList> read_wall_lists(const ArchiveReader& in, const WallListLim
     want(k == 0 || lists[k - 1].block <= list.block, in, "wall_lists/block", "blocks are out of order");
     list.candidates = part(c.candidate, candidate, sizes[0]);
     for (uint64_t left = sizes[1]; left > 0; --left, ++slot)
-      list.slots.push_back({c.slot_row[slot],
-                            c.slot_patch[slot],
-                            {c.normal[3 * slot], c.normal[3 * slot + 1], c.normal[3 * slot + 2]}});
+      list.slots.push_back(
+          {c.slot_row[slot], c.slot_patch[slot], {c.normal[3 * slot], c.normal[3 * slot + 1], c.normal[3 * slot + 2]}});
     list.state = part(c.state, state, sizes[2]);
     list.property = part(c.property, property, sizes[3]);
     const double* sum = &c.resultant[k * resultant_words];

@@ -51,6 +51,7 @@ class Columns {
     for (auto& column : out_) column.assign(n, 0.0);
     for (auto& column : energy_) column.assign(n, 0.0);
     for (auto& column : state_) column.assign(n, 0.0);
+    bonded_mask_.assign(n, 1);
     for (std::size_t w = 0; w < rule_.size(); ++w) words_[w].assign(n, rule_[w]);
   }
 
@@ -66,11 +67,13 @@ class Columns {
   }
 
   double dt = 1e-5;
-  bool varying = false, energy = false, normal_only = false;
+  bool varying = false, energy = false, normal_only = false, bonded = false;
 
   /// Runs the law over all contacts in batches of at most `size`.
   uint32_t run(core::Isa isa = core::Isa::baseline, std::size_t size = SCREE_BATCH) {
     const auto& table = normal_only         ? model_.normal_only
+                        : bonded && varying ? model_.bonded_varying
+                        : bonded            ? model_.bonded
                         : varying && energy ? model_.varying_energy
                         : varying           ? model_.varying
                         : energy            ? model_.uniform_energy
@@ -128,6 +131,7 @@ class Columns {
     memory_.clear();
     for (auto& column : state_) memory_.push_back(column.data() + first);
     for (std::size_t k = 0; k < 4; ++k) energy_pointer_[k] = energy_[k].data() + first;
+    if (bonded) b.bonded = bonded_mask_.data() + first;
     if (varying) b.property = property_.data();
     if (!normal_only) b.state = memory_.data();
     if (energy) b.energy = energy_pointer_.data();
@@ -144,6 +148,7 @@ class Columns {
   std::vector<const double*> property_;
   std::vector<double*> memory_;
   std::array<double*, 4> energy_pointer_{};
+  std::vector<uint8_t> bonded_mask_;
 };
 
 /// The plug-ins of this build only, whatever else is installed for the user.

@@ -1,6 +1,5 @@
 // A law gives the same bits on every instruction set, with uniform and varying properties, with and without energies,
 // and for any size of batch.
-#include <map>
 
 #include "laws/columns.hpp"
 #include "support/catch.hpp"

@@ -1,4 +1,7 @@
+#include <clocale>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "support/catch.hpp"
 #include "unit/scene_fakes.hpp"
@@ -31,7 +34,7 @@ contacts:
   - {name: platen, between: [sand, top], model: linear}
   - {name: mould, between: [sand, [bottom, sides]], model: linear, kn: 1 MN/m, ks: 1 MN/m, fric: .inf}
 processes:
-  gravity: {process: gravity, g: [0, 0, -9.81]}
+  gravity: {process: gravity, acceleration: [0, 0, -9.81]}
   damping: {process: local_damping, factor: 0.7}
 quantities:
   stress: "(walls.top.force.z - walls.bottom.force.z) / (2*side^2)"
@@ -218,4 +221,26 @@ TEST_CASE("a missing plug-in alone exits with 4, beside other errors with 3") {
     REQUIRE(std::string(refusal.what()) == "scene:2:23: error: no wall plug-in 'plan'; did you mean 'plane'?");
   }
   REQUIRE_THROWS_AS(read_text_scene(missing + "sed: 3\n"), SceneErrors);
+}
+
+TEST_CASE("the whole scene of docs/scenes.md is accepted") {
+  std::ifstream stream(std::string(SCREE_SOURCE_DIR) + "/docs/scenes.md");
+  std::ostringstream page;
+  page << stream.rdbuf();
+  const std::string text = page.str();
+  const size_t start = text.find("```yaml\nscree: 1");
+  REQUIRE(start != std::string::npos);
+  const std::string scene = text.substr(start + 8, text.find("```", start + 8) - start - 8);
+  REQUIRE(refusal_of(scene) == "");
+}
+
+TEST_CASE("numbers and units do not depend on the locale") {
+  // Any locale with a decimal comma that the machine has; without one the C locale is tested again.
+  const char* found = nullptr;
+  for (const char* const name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE.utf8"})
+    if (!found) found = std::setlocale(LC_ALL, name);
+  const Scene scene = read_text_scene(specimen);
+  std::setlocale(LC_ALL, "C");
+  REQUIRE(scene.vars.at("side") == 0.15);
+  REQUIRE(scene.contacts[0].model.settings[2].formula->evaluate(std::vector<double>{0.5}) == 0.1 * 0.5 + 0.075);
 }

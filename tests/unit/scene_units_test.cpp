@@ -1,5 +1,3 @@
-#include <clocale>
-
 #include "core/scene/units.hpp"
 #include "support/catch.hpp"
 
@@ -39,4 +37,18 @@ TEST_CASE("units refuse what UDUNITS would read as something else") {
   REQUIRE(units::known("J/(kg K)"));
   REQUIRE(units::known("1/s"));
   REQUIRE_FALSE(units::known(std::string(500, 'm')));
+}
+
+TEST_CASE("every unit of the table in docs/units.md is known") {
+  for (const char* const text :
+       {"km",   "cm",   "mm",    "um",  "nm",  "inch", "ft",    "g",   "t",   "ms",   "us",   "ns",
+        "min",  "h",    "kN",    "MN",  "kPa", "MPa",  "GPa",   "bar", "psi", "kN/m", "MN/m", "g/cm3",
+        "t/m3", "mm/s", "mm/s2", "deg", "°",   "mrad", "deg/s", "rpm", "Hz",  "kHz",  "N m",  "N.m",
+        "N*m",  "J",    "kN m",  "kJ",  "K",   "degC", "%",     "m^2", "s-1"}) {
+    INFO(text);
+    REQUIRE(units::known(text));
+  }
+  REQUIRE(units::to_si(1, "min") == 60.0);
+  REQUIRE(units::to_si(1, "h") == 3600.0);
+  REQUIRE(units::to_si(1, "t") == 1000.0);
 }

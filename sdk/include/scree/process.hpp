@@ -128,7 +128,7 @@ int call_step(void* self, const scree_step* table, const scree_refusal* refusal)
     Step step(*table);
     if constexpr (HasState<T>) {
       typename T::State state;
-      std::memcpy(&state, table->state, sizeof state);
+      std::memcpy(static_cast<void*>(&state), table->state, sizeof state);
       static_cast<T*>(self)->step(step, state);
       std::memcpy(table->state, &state, sizeof state);
     } else {

@@ -23,7 +23,7 @@ class RowCell {
   SCREE_INLINE RowCell(double* const* word, std::size_t row) : word_(word), row_(row) {
     double w[Column::words];
     for (std::size_t k = 0; k < Column::words; ++k) w[k] = word[k][row];
-    std::memcpy(&value_, w, sizeof w);
+    std::memcpy(static_cast<void*>(&value_), w, sizeof w);
   }
   SCREE_INLINE ~RowCell() {
     if constexpr (writes) {

@@ -1,0 +1,73 @@
+#include "packing.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "core/base/philox.hpp"
+
+namespace scree::bench {
+
+namespace {
+
+// The balls go through a file, as a user's would; the scene then reads like any other.
+std::string write_balls(const std::filesystem::path& folder, int cells, double edge) {
+  const core::Random random(7, "bench");
+  std::ofstream file(folder / "balls.csv");
+  file.precision(17);
+  file << "x,y,z,r\n";
+  const double basis[4][3] = {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
+  uint64_t index = 0;
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j)
+      for (int k = 0; k < cells; ++k)
+        for (const auto& site : basis) {
+          const int cell[3] = {i, j, k};
+          for (int axis = 0; axis < 3; ++axis)
+            file << (cell[axis] + site[axis]) * edge +
+                        0.03 * (2 * random.uniform(index, static_cast<uint64_t>(axis)) - 1)
+                 << ',';
+          file << 0.5 * (1 + 0.08 * (2 * random.uniform(index, 3) - 1)) << '\n';
+          ++index;
+        }
+  return "balls.csv";
+}
+
+std::string scene_text(double length, bool friction) {
+  const std::string edge = std::to_string(length);
+  return "scree: 1\ntitle: dense packing\ntimestep: 1.0e-3\nskin: 0.1\ncell: {low: [0, 0, 0], high: [" + edge + ", " +
+         edge + ", " + edge +
+         "], periodic: [x, y, z]}\nballs:\n  grains: {generator: file, path: balls.csv, density: 1.909859}\n" +
+         "contacts:\n  - {name: grains, between: [grains, grains], model: linear, kn: 2000, ks: " +
+         (friction ? "571.4286, fric: 0.5" : "0, fric: 0") + ", dp_nratio: 0.4}\nstages:\n  - go: [cycle: 1]\n";
+}
+
+}  // namespace
+
+std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Catalogue& catalogue) {
+  const int cells = static_cast<int>(std::lround(std::cbrt(static_cast<double>(setting.balls) / 4)));
+  const double edge = 1.421;  // a little more than touching at the mean size: half of the twelve neighbours touch
+  const auto folder = std::filesystem::temp_directory_path() / ("scree_bench_" + std::to_string(setting.balls));
+  std::filesystem::create_directories(folder);
+  write_balls(folder, cells, edge);
+  const auto path = folder / "scene.yaml";
+  std::ofstream(path) << scene_text(cells * edge, setting.friction);
+  core::ReadOptions options;
+  options.file = path.string();
+  auto simulation =
+      std::make_unique<core::Simulation>(core::read_scene(options, catalogue), catalogue, setting.threads, setting.isa);
+  simulation->set_up();
+  simulation->prepare();
+  for (int cycle = 0; cycle < 40; ++cycle) simulation->engine.advance();
+  return simulation;
+}
+
+double measure(core::Simulation& simulation, std::size_t cycles) {
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t cycle = 0; cycle < cycles; ++cycle) simulation.engine.advance();
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds * 1e9 / static_cast<double>(cycles) / static_cast<double>(simulation.engine.balls.size());
+}
+
+}  // namespace scree::bench

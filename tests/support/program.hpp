@@ -1,0 +1,51 @@
+#pragma once
+// The built program as a user calls it: words in, exit code, stdout and stderr out.
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
+
+namespace support {
+
+struct ProgramEnd {
+  int code = -1;    ///< exit status, -1 when a signal ended it
+  int signal = 0;   ///< that signal, 0 when it exited
+  std::string out;  ///< stdout, unless it was sent elsewhere
+  std::string err;
+};
+
+/// Runs `scree WORDS...` in a folder, with no plug-ins but those of this build. `out`: a file for stdout; "-" closes
+/// it.
+inline ProgramEnd scree(const std::vector<std::string>& words, const std::string& folder = ".", std::string out = "") {
+  const TemporaryFolder caught;
+  const std::string errors = caught / "err", program = SCREE_BINARY_DIR "/bin/scree";
+  if (out.empty()) out = caught / "out";
+  const pid_t pid = ::fork();
+  if (pid == 0) {
+    ::close(STDOUT_FILENO);
+    if (out != "-" && ::open(out.c_str(), O_WRONLY | O_CREAT, 0666) != STDOUT_FILENO) ::_exit(97);
+    ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT, 0666), STDERR_FILENO);
+    if (::chdir(folder.c_str()) != 0) ::_exit(96);
+    ::unsetenv("SCREE_PLUGIN_PATH");
+    ::setenv("XDG_DATA_HOME", caught.path().c_str(), 1);
+    std::vector<char*> argv{const_cast<char*>(program.c_str())};
+    for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+    argv.push_back(nullptr);
+    ::execv(program.c_str(), argv.data());
+    ::_exit(95);
+  }
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  ProgramEnd end;
+  if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
+  if (out != "-") end.out = read_text(out);
+  end.err = read_text(errors);
+  return end;
+}
+
+}  // namespace support
