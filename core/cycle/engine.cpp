@@ -17,7 +17,10 @@ double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1
 
 }  // namespace
 
-Engine::Engine(unsigned threads, int isa) : team(threads), host(balls, walls) { contacts.isa = isa; }
+Engine::Engine(unsigned threads, int isa, std::function<void(unsigned)> on_start)
+    : team(threads, std::move(on_start)), host(balls, walls) {
+  contacts.isa = isa;
+}
 
 double Engine::local_damping() const {
   double most = 0;

@@ -48,7 +48,8 @@ struct Clock {
 /// forces() completes time n; advance() goes to n+1.
 class Engine {
  public:
-  Engine(unsigned threads, int isa);
+  /// `on_start` runs first on every helper thread, as for Team.
+  Engine(unsigned threads, int isa, std::function<void(unsigned)> on_start = {});
 
   Balls balls;
   std::vector<Wall> walls;

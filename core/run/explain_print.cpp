@@ -19,6 +19,8 @@ std::string bytes_text(uint64_t bytes) {
   return fmt::format("{} B", bytes);
 }
 
+const char* plural(uint64_t count) { return count == 1 ? "" : "s"; }
+
 std::size_t sum(const std::vector<Stored>& parts) {
   std::size_t bytes = 0;
   for (const Stored& part : parts) bytes += part.bytes;
@@ -116,7 +118,8 @@ Json step_json(const Explanation::Step& step) {
 }  // namespace
 
 std::string to_text(const Explanation& e) {
-  std::string out = fmt::format("{}: {} balls, {} walls, {} pairs listed\n\n", e.scene, e.balls, e.walls, e.listed);
+  std::string out = fmt::format("{}: {} ball{}, {} wall{}, {} pair{} listed\n\n", e.scene, e.balls, plural(e.balls),
+                                e.walls, plural(e.walls), e.listed, plural(e.listed));
   out += plugins_text(e) + "\n" + cycle_text(e) + "\n";
   out += fmt::format("bytes of a ball: {}\n", sum(e.per_ball)) + storage_text(e.per_ball);
   out += contacts_text(e) + "\nleft out\n";

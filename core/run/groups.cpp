@@ -5,10 +5,9 @@
 namespace scree::core {
 
 uint16_t Groups::leaf(const std::string& name) {
-  const auto at = std::find(leaves_.begin(), leaves_.end(), name);
-  if (at == leaves_.end()) leaves_.push_back(name);
-  return static_cast<uint16_t>(at == leaves_.end() ? leaves_.size() - 1
-                                                   : static_cast<std::size_t>(at - leaves_.begin()));
+  const auto index = static_cast<std::size_t>(std::find(leaves_.begin(), leaves_.end(), name) - leaves_.begin());
+  if (index == leaves_.size()) leaves_.push_back(name);
+  return static_cast<uint16_t>(index);
 }
 
 std::vector<uint8_t> Groups::cover(const std::string& name) const {

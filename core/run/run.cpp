@@ -30,8 +30,8 @@ std::string start_state(const Scene& scene, const RunOptions& options) {
                                        : (std::filesystem::path(scene.file).parent_path() / path).string());
 }
 
-// How many balls a scene will have is known only after its generators ran; a team cannot grow. So threads are chosen
-// from the cores, and a scene of few blocks leaves the others asleep.
+// How many balls a scene will have is known only after its generators ran, and a team cannot grow: threads follow the
+// cores, and a scene of few blocks leaves the others asleep.
 std::unique_ptr<Simulation> make(Scene scene, Catalogue& catalogue, const RunOptions& options) {
   const unsigned threads = options.threads > 0 ? options.threads : usable_cores();
   auto simulation = std::make_unique<Simulation>(std::move(scene), catalogue, threads, static_cast<int>(options.isa));
@@ -46,11 +46,6 @@ void open_log(OutputFolder& folder, const Scene& scene) {
 }
 
 }  // namespace
-
-unsigned threads_for(unsigned wanted, std::size_t balls) {
-  const std::size_t blocks = std::max<std::size_t>(1, (balls + block_rows - 1) / block_rows);
-  return static_cast<unsigned>(std::min<std::size_t>(wanted > 0 ? wanted : usable_cores(), blocks));
-}
 
 std::unique_ptr<Simulation> begin_scene(Scene scene, Catalogue& catalogue, const RunOptions& options) {
   const std::string state = start_state(scene, options);

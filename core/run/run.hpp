@@ -44,7 +44,4 @@ RunResult run_scene(Scene scene, Catalogue& catalogue, const RunOptions& options
 /// Goes on with a run that was interrupted, from its last checkpoint. `previous`: from the one before.
 RunResult resume_run(const std::string& folder, Catalogue& catalogue, const RunOptions& options, bool previous);
 
-/// Threads for a scene: never more than it has blocks of balls.
-unsigned threads_for(unsigned wanted, std::size_t balls);
-
 }  // namespace scree::core

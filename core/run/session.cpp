@@ -4,6 +4,7 @@
 
 #include "core/base/log.hpp"
 #include "core/run/expectation.hpp"
+#include "core/run/sanity.hpp"
 #include "core/run/signals.hpp"
 #include "core/run/state.hpp"
 
@@ -147,7 +148,10 @@ Session::Ending Session::act(const Stage& stage, const Action& action) {
 Session::Ending Session::stages() {
   Position& position = simulation_->position;
   const auto& all = simulation_->scene.stages;
-  if (position.stage == 0 && position.action == 0 && !position.inside) complete(final_needs_);
+  if (position.stage == 0 && position.action == 0 && !position.inside) {
+    complete(final_needs_);
+    for (const std::string& doubt : doubts(*simulation_)) log::warning("{}", doubt);
+  }
   report_overlaps();
   for (; position.stage < all.size(); ++position.stage, position.action = 0) {
     const Stage& stage = all[position.stage];

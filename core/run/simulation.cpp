@@ -5,6 +5,7 @@
 
 #include "core/run/placement.hpp"
 #include "core/run/rule_binding.hpp"
+#include "core/run/signals.hpp"
 
 namespace scree::core {
 
@@ -24,7 +25,7 @@ bool names_wall(const std::vector<std::string>& side, const std::string& wall) {
 }  // namespace
 
 Simulation::Simulation(Scene given, Catalogue& plugins, unsigned threads, int isa)
-    : scene(std::move(given)), catalogue(plugins), engine(threads, isa) {
+    : scene(std::move(given)), catalogue(plugins), engine(threads, isa, [](unsigned) { use_crash_stack(); }) {
   if (scene.cell)
     for (std::size_t axis = 0; axis < 3; ++axis) {
       engine.cell.low[axis] = scene.cell->low[axis];

@@ -23,7 +23,8 @@ struct ProgramEnd {
 inline ProgramEnd scree(const std::vector<std::string>& words, const std::string& folder = ".", std::string out = "") {
   const TemporaryFolder caught;
   const std::string errors = caught / "err", program = SCREE_BINARY_DIR "/bin/scree";
-  if (out.empty()) out = caught / "out";
+  const bool keep = out.empty();
+  if (keep) out = caught / "out";
   const pid_t pid = ::fork();
   if (pid == 0) {
     ::close(STDOUT_FILENO);
@@ -43,7 +44,7 @@ inline ProgramEnd scree(const std::vector<std::string>& words, const std::string
   ProgramEnd end;
   if (WIFEXITED(status)) end.code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);
-  if (out != "-") end.out = read_text(out);
+  if (keep) end.out = read_text(out);
   end.err = read_text(errors);
   return end;
 }

@@ -1,0 +1,86 @@
+// Cases D58 and D59: long counts of cycles, and scenes with next to nothing in them.
+#include <cmath>
+#include <limits>
+
+#include "stability/lab.hpp"
+#include "support/catch.hpp"
+#include "support/program.hpp"
+
+using namespace scree::core;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("D58 OK: time is a count of cycles, within one unit in the last place after 1e12 of them") {
+  Clock clock;
+  clock.dt = 1e-12;
+  clock.cycle = 1000000000000;
+  CHECK(std::fabs(clock.time() - 1.0) <= std::numeric_limits<double>::epsilon());
+  // A change of the step goes on from the time that is reached.
+  clock.change_step(1e-3);
+  clock.cycle += 1000;
+  CHECK(std::fabs(clock.time() - 2.0) <= 2 * std::numeric_limits<double>::epsilon());
+  lab::measured("D58", "1e12 cycles of 1e-12 s: time differs from 1 s by " + lab::number(clock.time() - 2.0) + " s");
+}
+
+TEST_CASE("D58 OK: cycle counters pass 2^31, 2^32 and 1e12 without a trace") {
+  lab::Lab here;
+  uint64_t hash = 0;
+  for (const uint64_t start : {uint64_t{0}, (uint64_t{1} << 31) - 100, (uint64_t{1} << 32) - 100, uint64_t{1000000000000}}) {
+    const auto simulation = here.make(lab::flow);
+    simulation->engine.clock.cycle = start;
+    simulation->engine.clock.base_cycle = start;
+    lab::run(*simulation, 400);
+    CHECK(simulation->engine.clock.cycle == start + 400);
+    INFO("from cycle " << start);
+    if (start == 0) hash = simulation->engine.state_hash();
+    CHECK(simulation->engine.state_hash() == hash);
+  }
+}
+
+TEST_CASE("D59 OK: one ball, no ball and one wall alone run and leave valid files") {
+  const TemporaryFolder folder;
+  const std::string head = "scree: 1\ntimestep: 1e-4\n", tail =
+                                                              "stages:\n  - go: [cycle: 200]\n"
+                                                              "record:\n  history: {writer: csv, every: 100 cycles, quantities: [kinetic_energy]}\n"
+                                                              "  view: {writer: vtk, every: 100 cycles, fields: [velocity]}\n";
+  const std::string wall = "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\n";
+  const auto set = [](const std::string& rows) {
+    return rows + "balls:\n  some: {generator: file, path: " + (rows.empty() ? "none" : "one") +
+           ".csv, density: 2500}\ncontacts:\n  - {name: all, between: [balls, [balls, walls]], model: linear, kn: 1e3, ks: 0}\n";
+  };
+  write_text(folder / "none.csv", "x,y,z,radius\n");
+  write_text(folder / "one.csv", "x,y,z,radius\n0,0,0.5,0.01\n");
+  struct Case {
+    std::string name, text, balls;
+  };
+  const std::vector<Case> cases = {{"wall", head + wall + tail, "\"balls\": 0"},
+                                   {"none", head + set("") + tail, "\"balls\": 0"},
+                                   {"one", head + set(wall) + tail, "\"balls\": 1"}};
+  for (const Case& one : cases) {
+    INFO(one.name);
+    write_text(folder / (one.name + ".yaml"), one.text);
+    const support::ProgramEnd end = support::scree({"run", one.name + ".yaml"}, folder.path());
+    INFO(end.err);
+    REQUIRE(end.code == 0);
+    const std::string out = folder / (one.name + ".out");
+    const std::string summary = read_text(out + "/summary.json");
+    CHECK(has(summary, one.balls));
+    CHECK(has(summary, "\"cycles\": 200"));
+    CHECK(has(read_text(out + "/history.csv"), "cycle,time,kinetic_energy\n0,0,0\n100,"));
+    CHECK(has(read_text(out + "/view.pvd"), "</VTKFile>"));
+  }
+  lab::measured("D59", "one wall, no ball, one ball: exit 0, 200 cycles, history and view are valid");
+}
+
+TEST_CASE("D59 REJECT: nothing that limits the step is refused with the key to give") {
+  const TemporaryFolder folder;
+  write_text(folder / "wall.yaml",
+             "scree: 1\nwalls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nstages:\n  - go: [cycle: 5]\n");
+  const support::ProgramEnd end = support::scree({"run", "wall.yaml"}, folder.path());
+  CHECK(end.code == 3);
+  CHECK(has(end.err, "timestep"));
+}
