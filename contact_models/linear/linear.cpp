@@ -67,7 +67,8 @@ struct Linear {
     return (dp_mode == 1 || dp_mode == 3) ? max(0.0, total) : total;
   }
   Vec3 shear_dashpot(const Contact& c, bool active, bool sliding) const {
-    const bool off = !active || (dp_mode >= 2 && sliding);
+    // Without an increment nobody can tell a sliding contact from a sticking one; modes 2 and 3 then leave it out.
+    const bool off = !active || (dp_mode >= 2 && (sliding || c.dt == 0));
     return (off ? 0.0 : c.dashpot(dp_sratio, ks)) * c.slip_rate();
   }
 

@@ -139,10 +139,12 @@ std::vector<std::string> declared(const Component& component) {
 
 std::string snippet(const Component& component) {
   std::string indent, out = head_of(component, indent), rest;
+  uint32_t corner = 0;
   for (uint32_t k = 0; k < component.property_count(); ++k) {
     const scree_property& property = component.properties()[k];
     if (!is_input(property)) continue;
-    const std::string line = std::string(property.name) + ": " + sample_text(property);
+    const std::string line = std::string(property.name) + ": " + sample_text(property, corner);
+    if (property.type == SCREE_VECTOR) ++corner;
     const std::vector<std::string> forms = forms_of(component, property);
     if (is_given(property))
       out += indent + line + "\n";
@@ -171,8 +173,8 @@ std::string component_text(const Component& component) {
 }
 
 std::string component_json(const Component& component) {
-  Json out{{"kind", kind_name(component.kind)}, {"name", component.name},     {"version", component.version},
-           {"file", component.file.string()},   {"sha256", component.sha256}, {"doc", component.doc},
+  Json out{{"kind", kind_name(component.kind)},  {"name", component.name},     {"version", component.version},
+           {"library", component.file.string()}, {"sha256", component.sha256}, {"doc", component.doc},
            {"properties", Json::array()}};
   for (uint32_t k = 0; k < component.property_count(); ++k)
     if (is_input(component.properties()[k]))

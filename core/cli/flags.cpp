@@ -87,7 +87,7 @@ Scene SceneFlags::read(Catalogue& catalogue) const {
 void RunFlags::declare(CLI::App& app) {
   app.add_option("-j,--threads", threads, "threads; any number gives the same bits")->type_name("N");
   app.add_option("--isa", isa, "instruction set: baseline, v3 or v4; by default the best there is")->type_name("NAME");
-  app.add_option("-n,--cycles", cycles, "stop after that many cycles, resumable")->type_name("CYCLES");
+  app.add_option("-n,--cycles", cycles, "stop after that many cycles")->type_name("CYCLES");
   app.add_option("--time-limit", time_limit, "stop after this wall time, as in 2h, resumable: exit code 75")
       ->type_name("TIME");
 }
@@ -95,7 +95,7 @@ void RunFlags::declare(CLI::App& app) {
 void RunFlags::declare_beginning(CLI::App& app) {
   app.add_option("-o,--output", output, "the output folder; by default NAME.out in the working directory")
       ->type_name("DIR");
-  app.add_option("--stage", stage, "stop after this stage, resumable")->type_name("NAME");
+  app.add_option("--stage", stage, "stop after this stage")->type_name("NAME");
   app.add_option("--from", from, "begin from a saved state")->type_name("STATE");
   app.add_flag("--restart", restart, "move an unfinished earlier run away instead of refusing");
 }

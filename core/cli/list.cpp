@@ -56,7 +56,7 @@ std::string json_of(const std::vector<Entry>& entries) {
   using Json = nlohmann::ordered_json;
   Json out = Json::array();
   for (const Entry& e : entries) {
-    Json one{{"kind", e.kind}, {"name", e.name}, {"file", e.file}, {"state", e.state}};
+    Json one{{"kind", e.kind}, {"name", e.name}, {"library", e.file}, {"state", e.state}};
     if (!e.version.empty()) one["version"] = e.version;
     if (!e.doc.empty()) one["doc"] = e.doc;
     if (!e.reason.empty()) one["reason"] = e.reason;

@@ -56,7 +56,7 @@ std::string type_text(const scree_property& property) {
     case SCREE_VECTOR:
       return "vector";
     case SCREE_TEXT:
-      return (property.flags & SCREE_FILE) != 0 ? "file" : "word";
+      return (property.flags & SCREE_FILE) != 0 ? "path of a file" : "word";
     case SCREE_NUMBERS:
       return property.words == 2 ? "two numbers" : "list of numbers";
     case SCREE_VECTORS:
@@ -107,14 +107,15 @@ std::string fallback_text(const scree_property& property) {
   return number_text(property.fallback) + unit_of(property);
 }
 
-std::string sample_text(const scree_property& property) {
+std::string sample_text(const scree_property& property, uint32_t corner) {
   if (const std::string fallback = fallback_text(property); !fallback.empty()) return fallback;
   const std::string number = number_text(inside(property)), unit = unit_of(property);
   switch (property.type) {
     case SCREE_BOOLEAN:
       return "true";
     case SCREE_VECTOR:
-      return "[0" + unit + ", 0" + unit + ", 1" + unit + "]";
+      if (unit.empty()) return "[0, 0, 1]";
+      return fmt::format("[{0}{1}, {0}{1}, {0}{1}]", corner, unit);
     case SCREE_TEXT:
       if ((property.flags & SCREE_FILE) != 0) return "balls.csv";
       return property.choices != nullptr ? first_choice(property) : "word";

@@ -11,7 +11,8 @@ std::string mix_text(uint32_t mix);                      ///< "" where only the 
 /// The default: a number with its unit; "" when there is none or it does not fit into one number.
 std::string fallback_text(const scree_property& property);
 /// A value as a scene would write it: the default, or the simplest one that the range allows.
-std::string sample_text(const scree_property& property);
+/// `corner` tells vectors with a length apart: the k-th is (k, k, k), so that corners of a box come in order.
+std::string sample_text(const scree_property& property, uint32_t corner = 0);
 /// True when a scene may give it: not computed by the law alone.
 bool is_input(const scree_property& property);
 

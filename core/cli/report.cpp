@@ -61,8 +61,9 @@ std::string report_text(const RunResult& result) {
   std::string out = ending(result) + measures(result.summary) + quantities(result.summary);
   out += expectations(result.summary);
   if (!result.folder.empty()) out += "results in " + result.folder + "\n";
-  if (result.code == Exit::time_limit || result.code == Exit::interrupted || result.code == Exit::terminated)
-    out += "go on with: scree resume " + result.folder + "\n";
+  const bool resumable =
+      result.code == Exit::time_limit || result.code == Exit::interrupted || result.code == Exit::terminated;
+  if (resumable && !result.summary.message.empty()) out += result.summary.message + "\n";
   return out;
 }
 

@@ -189,11 +189,8 @@ void Contacts::rebuild(Balls& balls, std::vector<Wall>& walls, const PeriodicCel
   if (!before_.empty())
     for (uint32_t& row : old_row) row = row < before_.size() ? before_[row] : no_row;
   before_.clear();
-  uint32_t most = 0;
-  for (uint32_t row : old_row) most = row == no_row ? most : std::max(most, row + 1);
-  std::vector<uint32_t> new_row(most, no_row);
-  for (std::size_t row = 0; row < old_row.size(); ++row)
-    if (old_row[row] != no_row) new_row[old_row[row]] = static_cast<uint32_t>(row);
+  std::vector<uint32_t> new_row(moved ? n : 0);
+  for (std::size_t row = 0; row < new_row.size(); ++row) new_row[order[row]] = static_cast<uint32_t>(row);
   const PairTable pairs = find_pairs(balls, cell, skin + book.reach(), team);
   lists_.resize(book.rules.size());
   const Carry carry{&balls, &pairs, &book, &old_row, &cell};
@@ -249,8 +246,7 @@ void Contacts::give_wall_slots(const std::vector<WallList>& old, const std::vect
     if (list.state.size() != list.slots.size() * words || list.property.size() != list.slots.size() * varying) continue;
     for (std::size_t k = 0; k < list.slots.size(); ++k) {
       WallSlot slot = list.slots[k];
-      if (!new_row.empty()) slot.row = slot.row < new_row.size() ? new_row[slot.row] : no_row;
-      if (slot.row == no_row) continue;
+      if (!new_row.empty()) slot.row = new_row[slot.row];
       const std::size_t block = slot.row / block_rows;
       for (std::size_t to = wall_first_[block]; to < wall_first_[block + 1]; ++to)
         if (wall_lists_[to].wall == list.wall && wall_lists_[to].rule == list.rule)
@@ -275,6 +271,11 @@ void Contacts::rows_kept(const std::vector<uint8_t>& keep) {
   for (std::size_t row = 0; row < keep.size(); ++row)
     if (keep[row]) rows.push_back(before_.empty() ? static_cast<uint32_t>(row) : before_[row]);
   before_.swap(rows);
+  std::vector<uint32_t> now(keep.size(), no_row);
+  uint32_t next = 0;
+  for (std::size_t row = 0; row < keep.size(); ++row)
+    if (keep[row]) now[row] = next++;
+  for (WallList& list : wall_lists_) follow_rows(list, now);
   built_ = false;
 }
 

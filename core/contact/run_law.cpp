@@ -6,7 +6,8 @@
 
 namespace scree::core {
 
-scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& s, const double** property, double** state) {
+scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& s, const double** property,
+                     double** state) {
   scree_batch batch{};
   batch.struct_size = sizeof batch;
   batch.n = n;

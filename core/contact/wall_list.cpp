@@ -214,6 +214,25 @@ void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& ball
   }
 }
 
+void follow_rows(WallList& list, const std::vector<uint32_t>& now) {
+  const std::size_t n = list.slots.size();
+  const std::size_t words = n == 0 ? 0 : list.state.size() / n, varying = n == 0 ? 0 : list.property.size() / n;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const uint32_t row = now[list.slots[k].row];
+    if (row == no_row) continue;
+    list.slots[kept] = list.slots[k];
+    list.slots[kept].row = row;
+    for (std::size_t w = 0; w < words; ++w) list.state[kept * words + w] = list.state[k * words + w];
+    for (std::size_t v = 0; v < varying; ++v) list.property[kept * varying + v] = list.property[k * varying + v];
+    ++kept;
+  }
+  list.slots.resize(kept);
+  list.state.resize(kept * words);
+  list.property.resize(kept * varying);
+  list.candidates.clear();
+}
+
 std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, std::size_t first, std::size_t last,
                                       double margin) {
   thread_local Touches touches;

@@ -48,6 +48,9 @@ int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& scratch);
 /// The rule's properties changed: its contacts get them anew, their state stays where it still has the same words.
 void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& balls, const Wall& wall);
 
+/// Rows were removed: `now` gives the row of each row of before, or no_row. Candidates wait for the next rebuild.
+void follow_rows(WallList& list, const std::vector<uint32_t>& now);
+
 /// The rows among [first, last) whose surface is nearer to the wall than margin.
 std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, std::size_t first, std::size_t last,
                                       double margin);

@@ -15,6 +15,10 @@ std::string number(double value) {
 
 double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+[[noreturn]] void refuse_without_step() {
+  throw Refusal(Exit::scene, "nothing limits the step: no contact of the scene has a stiffness; give 'timestep'");
+}
+
 }  // namespace
 
 Engine::Engine(unsigned threads, int isa, std::function<void(unsigned)> on_start)
@@ -104,8 +108,8 @@ void Engine::choose_step() {
                                      number(bound.step) + " s (ball " + std::to_string(bound.ball) + ", " + bound.term +
                                      "): lower 'timestep' to at most " + number(step.allowed()) +
                                      " s, leave it out for the automatic step, or say 'unsafe: true'");
-    if (step.step() == 0)
-      throw Refusal(Exit::scene, "nothing limits the step: no contact of the scene has a stiffness; give 'timestep'");
+    // Without balls a stage may still bring some; `advance` refuses when none has.
+    if (step.step() == 0 && balls.size() > 0) refuse_without_step();
   }
   clock.change_step(step.step());
 }
@@ -234,6 +238,7 @@ void Engine::run_model_processes() {
 
 void Engine::advance() {
   forces();
+  if (clock.dt == 0) refuse_without_step();
   const MotionInput input = motion_input();
   Slices& slices = contacts.slices();
   std::vector<MotionResult> results(slices.blocks());

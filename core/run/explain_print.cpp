@@ -132,7 +132,7 @@ std::string to_json(const Explanation& e) {
   json["plugins_found"] = e.plugins_found;
   json["plugins"] = Json::array();
   for (const auto& p : e.plugins)
-    json["plugins"].push_back({{"kind", p.kind}, {"name", p.name}, {"version", p.version}, {"file", p.file}});
+    json["plugins"].push_back({{"kind", p.kind}, {"name", p.name}, {"version", p.version}, {"library", p.file}});
   json["cycle"] = Json::array();
   for (const auto& phase : e.cycle) json["cycle"].push_back({{"phase", phase.name}, {"steps", phase.steps}});
   json["bytes_per_ball"] = sum(e.per_ball);

@@ -61,6 +61,12 @@ std::unique_ptr<Simulation> begin_scene(Scene scene, Catalogue& catalogue, const
 
 RunResult run_scene(Scene scene, Catalogue& catalogue, const RunOptions& options) {
   auto simulation = begin_scene(std::move(scene), catalogue, options);
+  // What the first cycle would refuse, such as a step above the stable limit, is refused before a folder is there; an
+  // edit that comes first may still change what the first cycle is.
+  const auto& stages = simulation->scene.stages;
+  const bool runs_first =
+      stages.empty() || stages[0].actions.empty() || std::holds_alternative<RunAction>(stages[0].actions[0].what);
+  if (simulation->engine.balls.size() > 0 && runs_first) simulation->engine.detect();
   const std::string path = options.output.empty() ? default_folder(simulation->scene.file) : options.output;
   OutputFolder folder = OutputFolder::create(path, options.restart);
   open_log(folder, simulation->scene);

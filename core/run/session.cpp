@@ -1,6 +1,6 @@
 #include "core/run/session.hpp"
 
-#include <filesystem>
+#include <utility>
 
 #include "core/base/log.hpp"
 #include "core/run/expectation.hpp"
@@ -107,10 +107,13 @@ Session::Ending Session::run_action(const Stage& stage, const RunAction& action)
   uint64_t look = 0;
   for (;;) {
     const bool over = length_reached(action), test = condition.due();
-    complete(over || test ? final_needs_ | condition.needs() : Needs());
+    const bool cut = options_.cycles && engine.clock.cycle >= first_cycle_ + *options_.cycles;
+    const bool first_look = std::exchange(unseen_, false);
+    complete(over || test || cut || first_look ? final_needs_ | condition.needs() : Needs());
+    if (first_look) report_overlaps();
     if (test && condition.met()) break;
     if (over) break;
-    if (options_.cycles && engine.clock.cycle >= first_cycle_ + *options_.cycles) {
+    if (cut) {
       ending = Ending::cut_short;
       break;
     }
@@ -263,6 +266,12 @@ RunResult Session::run() {
     ended_ = Exit::io;
     message_ = folder_.files().failed() ? folder_.files().error() : "some output could not be written, see log.txt";
   }
+  const bool resumable = ended_ == Exit::time_limit || ended_ == Exit::interrupted || ended_ == Exit::terminated;
+  if (!message_.empty()) log::write(resumable ? log::Level::info : log::Level::error, message_);
+  if (ended_ == Exit::time_limit || ended_ == Exit::interrupted || ended_ == Exit::terminated)
+    log::info("{}", message_);
+  else if (ended_ != Exit::done)
+    log::error("{}", message_);
   RunResult result{ended_, summary(), folder_.path()};
   if (const int code = write_summary(folder_.file("summary.json"), result.summary); code != 0) {
     log::error("cannot write {}: {}", folder_.file("summary.json"), errno_text(code));

@@ -63,6 +63,7 @@ class Session {
   std::vector<ExpectationResult> expectations_;
   Summary::Named values_;
   bool io_failed_ = false;
+  bool unseen_ = true;  ///< no cycle of this session was completed yet
 };
 
 }  // namespace scree::core

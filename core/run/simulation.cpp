@@ -154,9 +154,15 @@ double Simulation::ball_number(std::size_t row, const std::string& name) const {
       {"vy", Column::vy}, {"vz", Column::vz},         {"wx", Column::wx},    {"wy", Column::wy},
       {"wz", Column::wz}, {"radius", Column::radius}, {"mass", Column::mass}};
   if (name == "id") return static_cast<double>(balls.id()[row]);
+  const double radius = balls[Column::radius][row];
+  if (name == "volume") return 4.0 / 3.0 * 3.141592653589793 * radius * radius * radius;
+  if (name == "speed")
+    return std::sqrt(balls[Column::vx][row] * balls[Column::vx][row] + balls[Column::vy][row] * balls[Column::vy][row] +
+                     balls[Column::vz][row] * balls[Column::vz][row]);
   const auto found = columns.find(name);
   if (found == columns.end())
-    throw Refusal(Exit::scene, "'" + name + "' is no number of a ball: use x y z vx vy vz wx wy wz radius mass id");
+    throw Refusal(Exit::scene,
+                  "'" + name + "' is no number of a ball: use x y z vx vy vz wx wy wz radius mass volume speed id");
   const double* column = balls[found->second];
   return column == nullptr ? 0.0 : column[row];
 }

@@ -90,6 +90,7 @@ void load_specimen(Simulation& simulation, const ArchiveReader& in) {
   clock.dt = 0;
   // What laws integrate over the last drift is in their state already if they were evaluated after it.
   if (in.has("forces")) clock.dt_law = 0;
+  simulation.prepare();
 }
 
 }  // namespace scree::core

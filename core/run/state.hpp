@@ -24,8 +24,8 @@ void load_state(Simulation& simulation, const ArchiveReader& in);
 /// `start: {state}`: balls, groups, clock and contact memory of a saved state, into a fresh simulation of another
 /// scene, in place of set_up(); the scene's own balls come in addition. Walls, rules and processes are the scene's. A
 /// wall of the same name stands where it had come to. A contact goes on where its rule has the same name, the same
-/// model and the same state words, and starts fresh elsewhere. Cycle and time go on from the state; the first kick is
-/// that of a start.
+/// model and the same state words, and starts fresh elsewhere. Cycle and time go on from the state, and so do
+/// velocities of the half step before. Ends with prepare().
 void load_specimen(Simulation& simulation, const ArchiveReader& in);
 
 }  // namespace scree::core

@@ -208,8 +208,11 @@ TEST_CASE("what show offers to paste is a scene") {
   text.erase(text.find("contacts:"), text.find("stages:") - text.find("contacts:"));
   std::string rules = Json::parse(scree({"show", "linear", "--json"}).out).at("snippet");
   rules.replace(rules.find("[balls, balls]"), 14, "[balls, [balls, walls]]");
-  std::string process = Json::parse(scree({"show", "gravity", "--json"}).out).at("snippet");
-  std::string writer = Json::parse(scree({"show", "csv", "--json"}).out).at("snippet");
+  text.erase(text.find("  floor:"), text.find("balls:") - text.find("  floor:"));
+  text.replace(text.find("walls:\n"), 7,
+               Json::parse(scree({"show", "box", "--json"}).out).at("snippet").get<std::string>());
+  const std::string process = Json::parse(scree({"show", "gravity", "--json"}).out).at("snippet");
+  const std::string writer = Json::parse(scree({"show", "csv", "--json"}).out).at("snippet");
   const ProgramEnd end = at.with(text + rules + process + writer, {"check", "scene.yaml"});
   INFO(end.err << rules << process << writer);
   CHECK(end.code == 0);

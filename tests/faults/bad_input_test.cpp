@@ -56,16 +56,26 @@ TEST_CASE("a scene that cannot run is refused with its code, place and remedy") 
        3,
        {"scene.yaml:5:3:", "no rule covers the pair 'sand' and 'sand'", "model: none"}},
       {"a generator that cannot place its balls",
-       with("count: 20, box: [[0, 0, 0], [0.2, 0.2, 0.2]]", "count: 900, tries: 200, box: [[0, 0, 0], [0.1, 0.1, 0.1]]"),
+       with("count: 20, box: [[0, 0, 0], [0.2, 0.2, 0.2]]",
+            "count: 900, tries: 200, box: [[0, 0, 0], [0.1, 0.1, 0.1]]"),
        3,
        {"scene.yaml:5:", "balls 'sand'", "of 900", "porosity"}},
       {"a periodic cell that is too small",
        with("walls:", "cell: {low: [0, 0, 0], high: [0.03, 0.2, 0.2], periodic: [x]}\nwalls:"),
        3,
        {"the periodic cell is too small along x", "0.03 m", "enlarge the cell or use smaller balls"}},
-      {"a missing plug-in", with("model: linear", "model: linaer"), 4, {"scene.yaml:7:", "linaer", "did you mean 'linear'?"}},
-      {"a step above the stable limit", with("walls:", "timestep: 1 ms\nwalls:"), 3, {"stable limit", "lower 'timestep'"}},
-      {"a state that is not there", "scree: 1\nstart: {state: none/such}\nstages:\n  - go: [cycle: 1]\n", 6, {"none/such"}}};
+      {"a missing plug-in",
+       with("model: linear", "model: linaer"),
+       4,
+       {"scene.yaml:7:", "linaer", "did you mean 'linear'?"}},
+      {"a step above the stable limit",
+       with("walls:", "timestep: 1 ms\nwalls:"),
+       3,
+       {"stable limit", "lower 'timestep'"}},
+      {"a state that is not there",
+       "scree: 1\nstart: {state: none/such}\nstages:\n  - go: [cycle: 1]\n",
+       6,
+       {"none/such"}}};
   for (const Wrong& one : all) {
     const TemporaryFolder folder;
     write_text(folder / "scene.yaml", one.scene);

@@ -57,7 +57,8 @@ TEST_CASE("overlap beyond the limit is exit 5, with the worst balls and what to 
 TEST_CASE("a stop names the last good checkpoint") {
   const TemporaryFolder folder;
   const support::ProgramEnd end =
-      run(folder, shot("-1", "cycle: 20, save: before, set: {balls.sand.velocity: [0, 0, -25]}, cycle: 100000", "timestep: 2e-5\n"));
+      run(folder, shot("-1", "cycle: 20, save: before, set: {balls.sand.velocity: [0, 0, -25]}, cycle: 100000",
+                       "timestep: 2e-5\n"));
   INFO(end.err);
   CHECK(end.code == 5);
   CHECK(std::filesystem::exists(folder / "scene.out/before.scree"));

@@ -43,8 +43,9 @@ TEST_CASE("D1: amplitudes of an oscillator under local damping fall by sqrt((1 -
   // A ball held between two floors by 0.1 mm of overlap each, so that it never leaves either: stiffness 2 kn.
   constexpr double kn = 1e5, start = 0.9e-4;
   const double mass = 4.0 / 3.0 * std::numbers::pi * 1e-6 * 2500, frequency = std::sqrt(2 * kn / mass);
-  Measure measure("D1", "force opposed by a|F|: amplitude ratio sqrt((1 - a)/(1 + a)), half period (pi/2w)(1/sqrt(1 - a) "
-                        "+ 1/sqrt(1 + a)), from Cundall's (1987) definition, piecewise harmonic motion");
+  Measure measure("D1",
+                  "force opposed by a|F|: amplitude ratio sqrt((1 - a)/(1 + a)), half period (pi/2w)(1/sqrt(1 - a) "
+                  "+ 1/sqrt(1 + a)), from Cundall's (1987) definition, piecewise harmonic motion");
   for (const double factor : {0.1, 0.3, 0.7}) {
     SceneRun run("scree: 1\ntimestep: " + digits(2e-4 / frequency) +
                      "\nwalls:\n  low: {wall: plane, point: [0, 0, -0.0099], normal: [0, 0, 1]}\n"
@@ -72,6 +73,8 @@ TEST_CASE("D1: amplitudes of an oscillator under local damping fall by sqrt((1 -
     measure.check("amplitude ratio of the first half cycle" + name, amplitudes[0] / start, ratio, 1e-6);
     measure.check("amplitude ratio of the second half cycle" + name, amplitudes[1] / amplitudes[0], ratio, 1e-6);
     measure.check("amplitude ratio of the third half cycle" + name, amplitudes[2] / amplitudes[1], ratio, 1e-6);
-    measure.check("half period times w" + name, (times[2] - times[0]) / 2 * frequency, half, 2e-4);
+    // A turn is noticed up to a step late, with the velocity (1 + a)/(1 - a) times what the new force would have given.
+    measure.check("half period times w" + name, (times[2] - times[0]) / 2 * frequency, half,
+                  2e-4 * (1 + factor) / (1 - factor));
   }
 }

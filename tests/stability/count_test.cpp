@@ -23,13 +23,15 @@ TEST_CASE("D58 OK: time is a count of cycles, within one unit in the last place 
   clock.change_step(1e-3);
   clock.cycle += 1000;
   CHECK(std::fabs(clock.time() - 2.0) <= 2 * std::numeric_limits<double>::epsilon());
-  lab::measured("D58", "1e12 cycles of 1e-12 s: time differs from 1 s by " + lab::number(clock.time() - 2.0) + " s");
+  lab::measured("D58", "1e12 cycles of 1e-12 s and 1000 of 1 ms: time differs from 2 s by " +
+                           lab::number(clock.time() - 2.0) + " s");
 }
 
 TEST_CASE("D58 OK: cycle counters pass 2^31, 2^32 and 1e12 without a trace") {
   lab::Lab here;
   uint64_t hash = 0;
-  for (const uint64_t start : {uint64_t{0}, (uint64_t{1} << 31) - 100, (uint64_t{1} << 32) - 100, uint64_t{1000000000000}}) {
+  for (const uint64_t start :
+       {uint64_t{0}, (uint64_t{1} << 31) - 100, (uint64_t{1} << 32) - 100, uint64_t{1000000000000}}) {
     const auto simulation = here.make(lab::flow);
     simulation->engine.clock.cycle = start;
     simulation->engine.clock.base_cycle = start;
@@ -43,14 +45,16 @@ TEST_CASE("D58 OK: cycle counters pass 2^31, 2^32 and 1e12 without a trace") {
 
 TEST_CASE("D59 OK: one ball, no ball and one wall alone run and leave valid files") {
   const TemporaryFolder folder;
-  const std::string head = "scree: 1\ntimestep: 1e-4\n", tail =
-                                                              "stages:\n  - go: [cycle: 200]\n"
-                                                              "record:\n  history: {writer: csv, every: 100 cycles, quantities: [kinetic_energy]}\n"
-                                                              "  view: {writer: vtk, every: 100 cycles, fields: [velocity]}\n";
+  const std::string head = "scree: 1\ntimestep: 1e-4\n",
+                    tail =
+                        "stages:\n  - go: [cycle: 200]\n"
+                        "record:\n  history: {writer: csv, every: 100 cycles, quantities: [kinetic_energy]}\n"
+                        "  view: {writer: vtk, every: 100 cycles, fields: [velocity]}\n";
   const std::string wall = "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\n";
   const auto set = [](const std::string& rows) {
     return rows + "balls:\n  some: {generator: file, path: " + (rows.empty() ? "none" : "one") +
-           ".csv, density: 2500}\ncontacts:\n  - {name: all, between: [balls, [balls, walls]], model: linear, kn: 1e3, ks: 0}\n";
+           ".csv, density: 2500}\ncontacts:\n  - {name: all, between: [balls, [balls, walls]], model: linear, kn: 1e3, "
+           "ks: 0}\n";
   };
   write_text(folder / "none.csv", "x,y,z,radius\n");
   write_text(folder / "one.csv", "x,y,z,radius\n0,0,0.5,0.01\n");
@@ -78,9 +82,28 @@ TEST_CASE("D59 OK: one ball, no ball and one wall alone run and leave valid file
 
 TEST_CASE("D59 REJECT: nothing that limits the step is refused with the key to give") {
   const TemporaryFolder folder;
-  write_text(folder / "wall.yaml",
-             "scree: 1\nwalls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nstages:\n  - go: [cycle: 5]\n");
+  write_text(
+      folder / "wall.yaml",
+      "scree: 1\nwalls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nstages:\n  - go: [cycle: 5]\n");
   const support::ProgramEnd end = support::scree({"run", "wall.yaml"}, folder.path());
   CHECK(end.code == 3);
-  CHECK(has(end.err, "timestep"));
+  CHECK(has(end.err, "nothing limits the step"));
+  CHECK(has(end.err, "give 'timestep'"));
+}
+
+TEST_CASE("D59 OK: a scene may begin without balls and get them from a stage") {
+  const TemporaryFolder folder;
+  write_text(
+      folder / "later.yaml",
+      "scree: 1\nwalls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\n"
+      "stages:\n  - fill:\n"
+      "    - add:\n"
+      "        balls: {sand: {generator: lattice, kind: sc, radius: 10 mm, density: 2600, velocity: [0, 0, -1],\n"
+      "                       box: [[0, 0, 0], [40 mm, 40 mm, 40 mm]]}}\n"
+      "        contacts: [{name: all, between: [sand, [sand, floor]], model: linear, kn: 1e5, ks: 0}]\n"
+      "    - cycle: 20\n");
+  const support::ProgramEnd end = support::scree({"run", "later.yaml"}, folder.path());
+  INFO(end.err);
+  CHECK(end.code == 0);
+  CHECK(has(read_text(folder / "later.out/summary.json"), "\"balls\": 8"));
 }

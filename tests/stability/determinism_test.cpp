@@ -16,7 +16,7 @@ uint64_t hash_after(unsigned threads, int isa) {
   lab::Lab here;
   const auto simulation = here.make(lab::flow, threads, isa);
   lab::run(*simulation, cycles);
-  CHECK(simulation->engine.contacts.active() > 1000);
+  CHECK(simulation->engine.contacts.active() > 500);
   CHECK(simulation->engine.rebuilds() > 3);
   return simulation->engine.state_hash();
 }

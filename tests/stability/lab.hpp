@@ -62,7 +62,8 @@ inline std::string number(double value) {
 
 /// Appends "case: figure" to the file that SCREE_MEASURED names, if it is set: the third column of docs/stability.md.
 inline void measured(const std::string& name, const std::string& figure) {
-  if (const char* path = std::getenv("SCREE_MEASURED")) std::ofstream(path, std::ios::app) << name << ": " << figure << "\n";
+  if (const char* path = std::getenv("SCREE_MEASURED"))
+    std::ofstream(path, std::ios::app) << name << ": " << figure << "\n";
 }
 
 /// 2100 balls of 3 to 4.5 mm that slide down a periodic chute: collisions, friction, dashpots, damping, many rebuilds,

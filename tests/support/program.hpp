@@ -27,9 +27,10 @@ inline ProgramEnd scree(const std::vector<std::string>& words, const std::string
   if (keep) out = caught / "out";
   const pid_t pid = ::fork();
   if (pid == 0) {
+    // Before stdout is closed, whose number the next file that is opened would take.
+    ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666), STDERR_FILENO);
     ::close(STDOUT_FILENO);
     if (out != "-" && ::open(out.c_str(), O_WRONLY | O_CREAT, 0666) != STDOUT_FILENO) ::_exit(97);
-    ::dup2(::open(errors.c_str(), O_WRONLY | O_CREAT, 0666), STDERR_FILENO);
     if (::chdir(folder.c_str()) != 0) ::_exit(96);
     ::unsetenv("SCREE_PLUGIN_PATH");
     ::setenv("XDG_DATA_HOME", caught.path().c_str(), 1);

@@ -48,7 +48,7 @@ TEST_CASE("csv: header once, one row per frame, numbers that read back", "[plugi
   CHECK(std::stod("-0.3333333333333333") == -1.0 / 3);
 }
 
-TEST_CASE("csv: a resumed history goes on without a second header; a full disk is told", "[plugin]") {
+TEST_CASE("csv: a resumed history goes on without a second header, and a full disk is told", "[plugin]") {
   const auto& writer = opened<scree_writer>("writer", "csv");
   MemoryFiles files;
   const std::vector<const char*> names{"a"};

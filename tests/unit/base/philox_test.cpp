@@ -66,7 +66,7 @@ TEST_CASE("inverse_normal inverts the normal distribution") {
   for (const double p : {0x1p-53, 0x1p-7, 0x1.4p-4, 0.25}) CHECK(inverse_normal(1 - p) == -inverse_normal(p));
 }
 
-TEST_CASE("uniform draws fill [0, 1) evenly") {
+TEST_CASE("uniform draws fill the unit interval evenly") {
   // Chi-square over 256 bins with 255 degrees of freedom: mean 255, deviation sqrt(510) = 22.6; 5 deviations allowed.
   const Random random(2011, "generator/sand");
   const int n = 256 * 1000;

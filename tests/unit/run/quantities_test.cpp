@@ -5,6 +5,7 @@
 
 #include "core/run/archive.hpp"
 #include "core/run/expectation.hpp"
+#include "core/run/fields.hpp"
 #include "support/catch.hpp"
 #include "support/simulated.hpp"
 
@@ -49,7 +50,8 @@ const char* const thrown =
     "scree: 1\n"
     "timestep: 1 ms\n"
     "balls: {one: {generator: file, path: balls.csv, density: 1000}}\n"
-    "processes: {gravity: {process: gravity, g: [0, 0, -10]}}\n"
+    "contacts: [{name: none, between: [one, one], model: none}]\n"
+    "processes: {gravity: {process: gravity, acceleration: [0, 0, -10]}}\n"
     "quantities: {height: balls.1.position.z}\n";
 const char* const thrown_ball = "x,y,z,r,vx,vy,vz\n0,0,0,0.01,0,0,1\n";
 
@@ -226,4 +228,20 @@ TEST_CASE("expectations: bounds, tolerance, distance, and NaN fails", "[run]") {
   CHECK(results[2].source == "by hand");
   CHECK_FALSE(results[3].passed);
   CHECK_FALSE(results[4].passed);
+}
+
+TEST_CASE("quantities: the page of quantities names each of them", "[run]") {
+  Simulated scene(scene_with(""), three_balls);
+  const std::string page = read_text(std::string(SCREE_SOURCE_DIR) + "/docs/quantities.md");
+  for (const std::string& name : published_names(*scene)) {
+    if (name.starts_with("walls.")) continue;
+    const std::string shown =
+        name.ends_with(".y") || name.ends_with(".z") ? name.substr(0, name.size() - 1) + "x" : name;
+    INFO(name);
+    CHECK(page.find("`" + shown + "`") != std::string::npos);
+  }
+  for (const std::string& name : field_names()) {
+    INFO(name);
+    CHECK(page.find("`" + name + "`") != std::string::npos);
+  }
 }

@@ -1,4 +1,5 @@
 #include <functional>
+#include <limits>
 #include <random>
 
 #include "core/run/packing.hpp"
@@ -17,7 +18,7 @@ const char* const pile = R"(scree: 1
 vars: {edge: 0.06}
 cell: {low: [0, 0, -0.01], high: [edge, edge, 0.1], periodic: [x, y]}
 walls:
-  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}
+  floor: {wall: plane, point: [0, 0, 0.0002], normal: [0, 0, 1]}
 balls:
   sand: {generator: lattice, kind: fcc, radius: 3 mm, spacing: 5.9 mm, box: [[0, 0, 0], [0.058, 0.058, 0.02]],
          density: 2600, contact: {fric: "0.3 + x"}}
@@ -95,7 +96,7 @@ void save_pile(const std::string& path, Catalogue& catalogue) {
   Simulation simulation(read_scene({"", pile, {}, {}}, catalogue), catalogue, 1, 0);
   simulation.set_up();
   simulation.prepare();
-  for (int k = 0; k < 50; ++k) simulation.engine.advance();
+  for (int k = 0; k < 4; ++k) simulation.engine.advance();
   simulation.engine.forces();
   REQUIRE(simulation.engine.contacts.active() > 50);
   REQUIRE(simulation.engine.walls[0].contacts > 10);
@@ -104,29 +105,24 @@ void save_pile(const std::string& path, Catalogue& catalogue) {
   REQUIRE(out.commit());
 }
 
-}  // namespace
+Change u8(const std::string& name, std::function<void(std::vector<uint8_t>&)> f) {
+  return Change{name, f, {}, {}, {}, {}};
+}
+Change u16(const std::string& name, std::function<void(std::vector<uint16_t>&)> f) {
+  return Change{name, {}, f, {}, {}, {}};
+}
+Change u32(const std::string& name, std::function<void(std::vector<uint32_t>&)> f) {
+  return Change{name, {}, {}, f, {}, {}};
+}
+Change u64(const std::string& name, std::function<void(std::vector<uint64_t>&)> f) {
+  return Change{name, {}, {}, {}, f, {}};
+}
+Change f64(const std::string& name, std::function<void(std::vector<double>&)> f) {
+  return Change{name, {}, {}, {}, {}, f};
+}
 
-TEST_CASE("a state whose indices do not fit is refused and the section is named") {
-  const TemporaryFolder folder;
-  Catalogue catalogue(build_path());
-  save_pile(folder / "good", catalogue);
-  copy_changed(folder / "good", folder / "same", {"", {}, {}, {}, {}, {}});
-  REQUIRE(read_text(folder / "good") == read_text(folder / "same"));
-  const auto u8 = [](const std::string& name, auto f) { return Change{name, f, {}, {}, {}, {}}; };
-  const auto u16 = [](const std::string& name, auto f) { return Change{name, {}, f, {}, {}, {}}; };
-  const auto u32 = [](const std::string& name, auto f) { return Change{name, {}, {}, f, {}, {}}; };
-  const auto u64 = [](const std::string& name, auto f) { return Change{name, {}, {}, {}, f, {}}; };
-  const auto f64 = [](const std::string& name, auto f) { return Change{name, {}, {}, {}, {}, f}; };
-  const std::vector<Change> changes = {
-      u64("balls/id", [](auto& v) { v[1] = v[0]; }),
-      u64("balls/id", [](auto& v) { v[1] = 0; }),
-      u64("balls/next_id", [](auto& v) { v[0] = 3; }),
-      u16("balls/group", [](auto& v) { v[5] = 1; }),
-      f64("balls/x", [](auto& v) { v.pop_back(); }),
-      f64("balls/x", [](auto& v) { v[3] = std::numeric_limits<double>::quiet_NaN(); }),
-      f64("balls/radius", [](auto& v) { v[3] = 0; }),
-      f64("balls/mass", [](auto& v) { v[3] = -1; }),
-      f64("balls/property/fric", [](auto& v) { v.push_back(1); }),
+std::vector<Change> changes_of_contacts() {
+  return {
       u64("contacts/shape", [](auto& v) { v[1] += 1; }),
       u64("contacts/shape", [](auto& v) { v[0] = 2; }),
       u32("contacts/rows_before", [](auto& v) { v.push_back(0); }),
@@ -152,6 +148,20 @@ TEST_CASE("a state whose indices do not fit is refused and the section is named"
       u32("wall_lists/candidate", [](auto& v) { v[0] = 4000000; }),
       u32("wall_lists/slot_row", [](auto& v) { v[0] = 4000000; }),
       f64("wall_lists/state", [](auto& v) { v.pop_back(); }),
+  };
+}
+
+std::vector<Change> changes_of_the_rest() {
+  return {
+      u64("balls/id", [](auto& v) { v[1] = v[0]; }),
+      u64("balls/id", [](auto& v) { v[1] = 0; }),
+      u64("balls/next_id", [](auto& v) { v[0] = 3; }),
+      u16("balls/group", [](auto& v) { v[5] = 1; }),
+      f64("balls/x", [](auto& v) { v.pop_back(); }),
+      f64("balls/x", [](auto& v) { v[3] = std::numeric_limits<double>::quiet_NaN(); }),
+      f64("balls/radius", [](auto& v) { v[3] = 0; }),
+      f64("balls/mass", [](auto& v) { v[3] = -1; }),
+      f64("balls/property/fric", [](auto& v) { v.push_back(1); }),
       f64("forces", [](auto& v) { v.pop_back(); }),
       u16("words/precedence", [](auto& v) { v[0] = 9; }),
       u8("clock", [](auto& v) { v.pop_back(); }),
@@ -161,6 +171,18 @@ TEST_CASE("a state whose indices do not fit is refused and the section is named"
       u8("rules/bound", [](auto& v) { v[0] = 3; }),
       u64("scene/hash", [](auto& v) { v[0] ^= 1; }),
   };
+}
+
+}  // namespace
+
+TEST_CASE("a state whose indices do not fit is refused and the section is named") {
+  const TemporaryFolder folder;
+  Catalogue catalogue(build_path());
+  save_pile(folder / "good", catalogue);
+  copy_changed(folder / "good", folder / "same", {"", {}, {}, {}, {}, {}});
+  REQUIRE(read_text(folder / "good") == read_text(folder / "same"));
+  std::vector<Change> changes = changes_of_contacts();
+  for (const Change& change : changes_of_the_rest()) changes.push_back(change);
   for (const Change& change : changes) {
     copy_changed(folder / "good", folder / "bad", change);
     const std::string said = refusal(folder / "bad", catalogue, 0);
@@ -199,7 +221,7 @@ TEST_CASE("random values in a state are refused or do no harm") {
     }
   };
   int refused = 0;
-  constexpr int rounds = 600;
+  constexpr int rounds = 300;
   for (int k = 0; k < rounds; ++k) {
     const std::string& name = sections[random() % sections.size()];
     INFO("round " << k << ", section " << name);
