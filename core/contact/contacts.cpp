@@ -95,7 +95,8 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
     if (geometry(view, n, options.dt, options.overlap_limit, s) && !excess.found)
       excess = pair_excess(rule, balls, n, options.overlap_limit, s);
     load_columns(list, n, s);
-    crash_note = {rule.model_name.c_str(), rule.name.c_str(), 0, block, balls.id()[s.row[0]], balls.id()[s.other[0]]};
+    crash_note = {rule.model_name.c_str(), rule.name.c_str(),     options.cycle, block,
+                  balls.id()[s.row[0]],    balls.id()[s.other[0]]};
     run_law(rule, n, options.dt, s);
     store_columns(list, n, s);
     if (options.report) store_report(list, rule, n, s);
@@ -127,7 +128,7 @@ Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vec
                         options.overlap_limit,
                         options.sums,
                         options.report};
-    crash_note = {rule.model_name.c_str(), rule.name.c_str(), 0, block, 0, 0};
+    crash_note = {rule.model_name.c_str(), rule.name.c_str(), options.cycle, block, 0, 0};
     const int64_t slot = run_wall_list(list, pass, s);
     if (slot < 0 || worst.found) continue;
     const uint32_t row = list.slots[static_cast<std::size_t>(slot)].row;

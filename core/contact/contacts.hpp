@@ -29,6 +29,7 @@ struct PassOptions {
   double dt = 0;               ///< of the drift that led here, s
   double overlap_limit = 0.5;  ///< of the smaller radius
   bool sums = false;           ///< also the sum of contact force sizes per ball
+  uint64_t cycle = 0;          ///< for the note of a crash
   bool report = false;         ///< also force, moment and sliding flag per contact
 };
 

@@ -122,11 +122,13 @@ void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, c
     for (uint32_t k = 0; k < n; ++k) {
       const std::size_t i = s.row[k], j = s.other[k];
       if (!sums.holds(i) && !sums.holds(j)) continue;
-      const Eigen::Vector3d normal(s.nx[k], s.ny[k], s.nz[k]);
+      // The geometry stage gives the normal from the lower to the higher id; a block wants it outward from its ball, as
+      // contacts of one ball couple translation and rotation with the sign of their side.
+      const Eigen::Vector3d normal = s.sign[k] * Eigen::Vector3d(s.nx[k], s.ny[k], s.nz[k]);
       // A gap that has yet to close does not lengthen the arm it will have.
       const double half = 0.5 * std::min(0.0, s.gap[k]);
       sums.contact({i, view.radius[i] + half, view.inverse_mass[j] > 0 ? 2.0 : 1.0}, normal, t, k, s.mass[k]);
-      sums.contact({j, view.radius[j] + half, view.inverse_mass[i] > 0 ? 2.0 : 1.0}, normal, t, k, s.mass[k]);
+      sums.contact({j, view.radius[j] + half, view.inverse_mass[i] > 0 ? 2.0 : 1.0}, -normal, t, k, s.mass[k]);
     }
   }
 }

@@ -144,7 +144,7 @@ void Engine::detect() {
 void Engine::forces() {
   if (forces_current()) return;
   detect();
-  const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, report_wanted};
+  const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted};
   const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
   contact_updates_ += contacts.listed();
   forces_current_ = true;

@@ -42,7 +42,12 @@ std::unique_ptr<Simulation> make(Scene scene, Catalogue& catalogue, const RunOpt
 void open_log(OutputFolder& folder, const Scene& scene) {
   if (!log::open_file(folder.file("log.txt"))) log::warning("cannot write {}", folder.file("log.txt"));
   if (!folder.moved_to().empty()) log::info("the earlier results are now in {}", folder.moved_to());
-  for (const std::string& warning : scene.warnings) log::warning("{}", warning);
+  for (std::string warning : scene.warnings) {
+    // The reader says "file:line:column: warning: ..." as compilers do; the log has a word of its own for it.
+    const std::string word = " warning:";
+    if (const std::size_t at = warning.find(word); at != std::string::npos) warning.erase(at, word.size());
+    log::warning("{}", warning);
+  }
 }
 
 }  // namespace

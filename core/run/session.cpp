@@ -178,12 +178,16 @@ void Session::report_overlaps() {
         most, engine.clock.cycle);
 }
 
-void Session::finish() {
+void Session::read_quantities() {
   complete(final_needs_);
-  report_overlaps();
-  expectations_ = measured_expectations(simulation_->scene, quantities_);
   for (const Quantity& quantity : simulation_->scene.quantities)
     values_.emplace_back(quantity.name, quantities_.value(quantity.name));
+}
+
+void Session::finish() {
+  read_quantities();
+  report_overlaps();
+  expectations_ = measured_expectations(simulation_->scene, quantities_);
   for (const auto& recorder : recorders_) recorder->finish();
   for (const ExpectationResult& result : expectations_) {
     if (result.passed) continue;
@@ -240,11 +244,14 @@ void Session::save_named(const SaveAction& action) {
 RunResult Session::run() {
   try {
     const Ending ending = stages();
-    if (ending == Ending::interrupted) {
-      for (const auto& recorder : recorders_) recorder->close();
-      if (save_checkpoint()) message_ += "; go on with: scree resume " + folder_.path();
-    } else {
+    if (ending == Ending::done) {
       finish();
+    } else {
+      if (ending == Ending::cut_short) read_quantities();
+      for (const auto& recorder : recorders_) recorder->close();
+      const std::string how = "go on with: scree resume " + folder_.path();
+      if (save_checkpoint() && ending == Ending::interrupted) message_ += "; " + how;
+      if (ending == Ending::cut_short) log::info("cut short as asked; {}", how);
     }
   } catch (const NumericalStop& stop) {
     ended_ = stop.code();
@@ -268,10 +275,6 @@ RunResult Session::run() {
   }
   const bool resumable = ended_ == Exit::time_limit || ended_ == Exit::interrupted || ended_ == Exit::terminated;
   if (!message_.empty()) log::write(resumable ? log::Level::info : log::Level::error, message_);
-  if (ended_ == Exit::time_limit || ended_ == Exit::interrupted || ended_ == Exit::terminated)
-    log::info("{}", message_);
-  else if (ended_ != Exit::done)
-    log::error("{}", message_);
   RunResult result{ended_, summary(), folder_.path()};
   if (const int code = write_summary(folder_.file("summary.json"), result.summary); code != 0) {
     log::error("cannot write {}: {}", folder_.file("summary.json"), errno_text(code));

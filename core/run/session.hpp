@@ -37,6 +37,8 @@ class Session {
   bool wants_to_stop();
   /// Completes the present time with all that is due, and writes it.
   void complete(const Needs& extra);
+  void read_quantities();
+  /// The end of a run that was not cut short: what it is judged by.
   void finish();
   bool save_checkpoint();
   void save_named(const SaveAction& action);

@@ -157,7 +157,7 @@ TEST_CASE("check refuses a step above the stable limit, as a run would") {
   CHECK(has(end.err, "stable limit"));
 }
 
-TEST_CASE("--set replaces a value before the scene is read") {
+TEST_CASE("the flag --set replaces a value before the scene is read") {
   const Folder at;
   const ProgramEnd end =
       at.with(scene(frictional), {"check", "--set", "contacts.grains.kn=-1", "scene.yaml", "--set", "seed=2"});

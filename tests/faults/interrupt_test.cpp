@@ -162,3 +162,26 @@ TEST_CASE("a second run in the folder of a running one is exit 9 and harms nothi
   REQUIRE(run.wait().code == 0);
   check_same(job);
 }
+
+TEST_CASE("a run that is cut short by -n or --stage is not judged and goes on") {
+  const Job job;
+  write_text(job.folder / "shake.yaml",
+             std::string(shake) + "expect:\n  - {quantity: cycle, equals: 100500, within: 0.1}\n");
+  const ProgramEnd first = support::scree({"run", "shake.yaml", "-n", "30000"}, job.folder.path());
+  INFO(first.err);
+  REQUIRE(first.code == 0);
+  CHECK(has(first.err, "scree resume shake.out"));
+  REQUIRE(support::scree({"resume", "shake.out", "-n", "7001", "-j", "2"}, job.folder.path()).code == 0);
+  const auto summary = nlohmann::json::parse(read_text(job.folder / "shake.out/summary.json"));
+  CHECK(summary.at("cycles") == 37001);
+  CHECK_FALSE(summary.contains("expectations"));
+  const ProgramEnd end = job.resume("1");
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  CHECK(has(end.out, "passed"));
+  check_same(job);
+  const ProgramEnd stage = support::scree({"run", "shake.yaml", "--stage", "shake", "-o", "staged"}, job.folder.path());
+  REQUIRE(stage.code == 0);
+  REQUIRE(support::scree({"resume", "staged"}, job.folder.path()).code == 0);
+  CHECK(read_text(job.folder / "staged/history.csv") == undisturbed().history);
+}

@@ -93,17 +93,18 @@ double worst_turned(const Cloud& cloud, double determinant, uint64_t cycles, std
 TEST_CASE("B7: the cloud collides, slides and sticks") {
   const Cloud cloud = random_cloud(7);
   SceneRun run(scene_of(cloud), balls_of(cloud));
-  double met = 0, slid = 0, pressed = 0;
+  double met = 0, slid = 0, stuck = 0, pressed = 0;
   for (int k = 0; k < 50; ++k) {
     run.step(10);
     met = std::max(met, run.value("contacts.balls"));
     pressed = std::max(pressed, run.value("contacts.walls"));
     slid = std::max(slid, run.value("contacts.sliding"));
+    stuck = std::max(stuck, run.value("contacts.count") - run.value("contacts.sliding"));
   }
   CHECK(met > 20);
   CHECK(pressed > 10);
   CHECK(slid > 3);
-  CHECK(slid < met);
+  CHECK(stuck > 3);
 }
 
 TEST_CASE("B7: the 24 turns of the cube give the same motion, turned") {

@@ -77,6 +77,25 @@ TEST_CASE("step OK: the bound is the critical step of a ball on a wall, with das
         Approx(2 / std::sqrt(1.7)).epsilon(1e-9));
 }
 
+TEST_CASE("step OK: the numbering of balls does not matter to the bound") {
+  // Four balls that touch each other: the contacts of each lie on one side of it, so that translation and rotation
+  // couple, and the sign with which each enters decides the eigenvalue.
+  lab::Lab here;
+  const char* const places[] = {"0,0,0", "0.02,0,0", "0.01,0.017320508075688773,0",
+                                "0.01,0.0057735026918962576,0.016329931618554521"};
+  const int orders[][4] = {{0, 1, 2, 3}, {3, 2, 1, 0}, {1, 3, 0, 2}, {0, 3, 1, 2}, {2, 0, 3, 1}};
+  double first = 0;
+  for (const auto& order : orders) {
+    std::string text = "x,y,z,radius\n";
+    for (const int k : order) text += std::string(places[k]) + ",0.01\n";
+    write_text(here.folder() / "balls.csv", text);
+    const double value = bound(here, "scree: 1\nballs:\n  four: {generator: file, path: balls.csv, density: 2500}\n" +
+                                         contacts(0.6) + "stages:\n  - go: [cycle: 1]\n");
+    if (first == 0) first = value;
+    CHECK(value == Approx(first).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("step OK: the bound is the critical step of the cubic lattices with rotation") {
   lab::Lab here;
   struct Kind {

@@ -163,7 +163,7 @@ TEST_CASE("the resolved scene reads back to itself") {
   REQUIRE(again.contacts[0].model.settings[2].formula->text() == "0.1*x + half");
 }
 
-TEST_CASE("--set changes a value, adds a key, and goes by the name of a rule or stage") {
+TEST_CASE("the flag --set changes a value, adds a key, and goes by the name of a rule or stage") {
   const Scene scene = read_text_scene(specimen, {{"contacts.grains.fric", "0.25"},
                                                  {"stages.settle.0.solve", "1e-2"},
                                                  {"timestep", "1 us"},
@@ -174,7 +174,7 @@ TEST_CASE("--set changes a value, adds a key, and goes by the name of a rule or 
   REQUIRE(scene.contacts[2].model.settings[0].value.numbers[0] == 2e6);
 }
 
-TEST_CASE("--set refuses a path whose parent does not exist and values that do not fit") {
+TEST_CASE("the flag --set refuses a path whose parent does not exist and values that do not fit") {
   const auto refusal = [](const std::string& path, const std::string& value) -> std::string {
     try {
       read_text_scene(specimen, {{path, value}});
