@@ -16,9 +16,21 @@ int64_t modulo(int64_t value, int64_t count) {
 // Far-away or non-finite coordinates must fold, not overflow.
 int64_t floor_of(double value) { return std::abs(value) < 9e15 ? static_cast<int64_t>(std::floor(value)) : 0; }
 
-struct Hit {
-  uint32_t low, high;
-  uint8_t image;
+/// Pairs found by one part of the rows, as columns: all parts together are the largest thing a rebuild holds.
+struct Hits {
+  std::vector<uint32_t> low, high;
+  std::vector<uint8_t> image;
+
+  void reserve(std::size_t n) {
+    low.reserve(n);
+    high.reserve(n);
+    image.reserve(n);
+  }
+  void add(uint32_t a, uint32_t b, uint8_t code) {
+    low.push_back(a);
+    high.push_back(b);
+    image.push_back(code);
+  }
 };
 
 struct Levels {
@@ -68,7 +80,7 @@ double nearest_image(double separation, const PeriodicCell& cell, int axis, uint
 uint8_t opposite(uint8_t image) { return static_cast<uint8_t>(((image & 0x15u) << 1) | ((image & 0x2au) >> 1)); }
 
 void search_rows(const Balls& balls, const PeriodicCell& cell, double margin, const Levels& levels, std::size_t first,
-                 std::size_t last, std::vector<Hit>& hits) {
+                 std::size_t last, Hits& hits) {
   const double *x = balls[Column::x], *y = balls[Column::y], *z = balls[Column::z], *radius = balls[Column::radius];
   for (std::size_t row = first; row < last; ++row) {
     const double point[3] = {x[row], y[row], z[row]};
@@ -86,30 +98,32 @@ void search_rows(const Balls& balls, const PeriodicCell& cell, double margin, co
         if (dx * dx + dy * dy + dz * dz >= limit * limit) return;
         const auto me = static_cast<uint32_t>(row);
         if (me < other)
-          hits.push_back({me, other, image});
+          hits.add(me, other, image);
         else
-          hits.push_back({other, me, opposite(image)});
+          hits.add(other, me, opposite(image));
       });
     }
   }
 }
 
-PairTable by_row(const std::vector<std::vector<Hit>>& hits, std::size_t rows) {
+PairTable by_row(std::vector<Hits> hits, std::size_t rows) {
   PairTable table;
   table.begin.resize(rows + 1);
-  for (const auto& part : hits)
-    for (const Hit& hit : part) ++table.begin[hit.low + 1];
+  for (const Hits& part : hits)
+    for (uint32_t low : part.low) ++table.begin[low + 1];
   for (std::size_t row = 0; row < rows; ++row) table.begin[row + 1] += table.begin[row];
   const std::size_t total = rows == 0 ? 0 : table.begin[rows];
   table.other.resize_for_overwrite(total);
   table.image.resize_for_overwrite(total);
   Array<uint64_t> next = table.begin;
-  for (const auto& part : hits)
-    for (const Hit& hit : part) {
-      const uint64_t slot = next[hit.low]++;
-      table.other[slot] = hit.high;
-      table.image[slot] = hit.image;
+  for (Hits& part : hits) {
+    for (std::size_t k = 0; k < part.low.size(); ++k) {
+      const uint64_t slot = next[part.low[k]]++;
+      table.other[slot] = part.high[k];
+      table.image[slot] = part.image[k];
     }
+    part = Hits();
+  }
   return table;
 }
 
@@ -220,12 +234,12 @@ PairTable find_pairs(const Balls& balls, const PeriodicCell& cell, double margin
   const Levels levels = make_levels(balls, cell, margin);
   constexpr std::size_t part = 1024;
   const std::size_t parts = (n + part - 1) / part;
-  std::vector<std::vector<Hit>> hits(parts);
+  std::vector<Hits> hits(parts);
   team.each_block(parts, [&](std::size_t p) {
-    hits[p].reserve(part * 5);
+    hits[p].reserve(part * 5);  // a dense packing lists between four and five pairs a ball
     search_rows(balls, cell, margin, levels, p * part, std::min(n, (p + 1) * part), hits[p]);
   });
-  PairTable table = by_row(hits, n);
+  PairTable table = by_row(std::move(hits), n);
   team.each_block(parts, [&](std::size_t p) {
     for (std::size_t row = p * part; row < std::min(n, (p + 1) * part); ++row) sort_row(table, row);
   });

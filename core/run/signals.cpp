@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 
 #include "core/base/crash_note.hpp"
 
@@ -18,9 +19,22 @@ namespace {
 char checkpoint_text[2][1001];
 std::atomic<int> checkpoint_slot{0};
 
+// `timeout` and job schedulers send a signal to the process and at once again to its group: that is one request.
+constexpr double one_request = 0.2;  // s
+std::atomic<double> asked_at{0};
+
+double monotonic_seconds() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 void ask_to_stop(int signal) {
   int none = 0;
-  if (!requests::stop.compare_exchange_strong(none, signal)) ::_exit(static_cast<int>(stop_exit(signal)));
+  if (requests::stop.compare_exchange_strong(none, signal))
+    asked_at.store(monotonic_seconds());
+  else if (none != signal || monotonic_seconds() - asked_at.load() > one_request)
+    ::_exit(static_cast<int>(stop_exit(signal)));
 }
 
 void ask_to_save(int) { requests::save.store(1); }

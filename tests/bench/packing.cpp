@@ -17,7 +17,7 @@ std::string write_balls(const std::filesystem::path& folder, int cells, double e
   std::ofstream file(folder / "balls.csv");
   file.precision(17);
   file << "x,y,z,r\n";
-  const double basis[4][3] = {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.25}, {0.75, 0.25, 0.75}, {0.25, 0.75, 0.75}};
+  const double basis[2][3] = {{0.25, 0.25, 0.25}, {0.75, 0.75, 0.75}};
   uint64_t index = 0;
   for (int i = 0; i < cells; ++i)
     for (int j = 0; j < cells; ++j)
@@ -46,8 +46,8 @@ std::string scene_text(double length, bool friction) {
 }  // namespace
 
 std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Catalogue& catalogue) {
-  const int cells = static_cast<int>(std::lround(std::cbrt(static_cast<double>(setting.balls) / 4)));
-  const double edge = 1.421;  // a little more than touching at the mean size: half of the twelve neighbours touch
+  const int cells = static_cast<int>(std::lround(std::cbrt(static_cast<double>(setting.balls) / 2)));
+  const double edge = 1.145;  // a little less than touching at the mean size: six of the eight neighbours touch
   const auto folder = std::filesystem::temp_directory_path() / ("scree_bench_" + std::to_string(setting.balls));
   std::filesystem::create_directories(folder);
   write_balls(folder, cells, edge);
