@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <new>
 
+#include "core/base/heap.hpp"
 #include "core/base/log.hpp"
 #include "core/base/nearest.hpp"
 #include "core/cli/command.hpp"
@@ -131,6 +132,7 @@ int run_program(int count, char** words) {
   // A reader that went away is a write that fails, with a message and an exit code, not a death by signal.
   std::signal(SIGPIPE, SIG_IGN);
   install_crash_handler();
+  tune_heap();
   log::open({});
   return static_cast<int>(guarded({words + std::min(count, 1), words + count}));
 }

@@ -27,8 +27,6 @@ Placement::Placement(Simulation& simulation, const BallSet& set)
       set_(set),
       random_(simulation.scene.seed, "generator/" + set.name),
       random_table_(random_.table()) {
-  const Balls& balls = simulation.engine.balls;
-  for (std::size_t row = 0; row < balls.size(); ++row) ids_.insert(balls.id()[row]);
   for (int axis = 0; axis < 3; ++axis) periodic_[axis] = simulation.engine.cell.periodic[axis];
 }
 
@@ -47,7 +45,15 @@ scree_sink Placement::sink() {
           warn};
 }
 
-std::string Placement::wrong(const scree_ball& b) const {
+bool Placement::in_use(uint64_t id) {
+  const Balls& balls = simulation_.engine.balls;
+  if (id >= balls.next_id) return false;
+  if (ids_.empty())
+    for (std::size_t row = 0; row < balls.size(); ++row) ids_.insert(balls.id()[row]);
+  return ids_.contains(id);
+}
+
+std::string Placement::wrong(const scree_ball& b) {
   if (!all_finite(b.position)) return "a ball has a position that is not finite";
   if (!(b.radius > 0) || !std::isfinite(b.radius)) return at(b) + ": the radius must be positive";
   const bool own = (b.given & SCREE_BALL_DENSITY) != 0;
@@ -56,7 +62,7 @@ std::string Placement::wrong(const scree_ball& b) const {
   if (!(density > 0) || !std::isfinite(density)) return at(b) + ": the density must be positive";
   if ((b.given & SCREE_BALL_VELOCITY) != 0 && !all_finite(b.velocity)) return at(b) + ": its velocity is not finite";
   if ((b.given & SCREE_BALL_SPIN) != 0 && !all_finite(b.spin)) return at(b) + ": its spin is not finite";
-  if ((b.given & SCREE_BALL_ID) != 0 && ids_.contains(b.id))
+  if ((b.given & SCREE_BALL_ID) != 0 && in_use(b.id))
     return at(b) + ": id " + std::to_string(b.id) + " is in use already; give every ball its own id";
   if ((b.given & SCREE_BALL_ID) != 0 && b.id == 0) return at(b) + ": id 0 is not allowed, ids start at 1";
   return "";
@@ -196,7 +202,7 @@ void Placement::add(const scree_ball& b) {
   const bool own_id = (b.given & SCREE_BALL_ID) != 0;
   const uint64_t id = own_id ? b.id : balls.next_id;
   balls.id()[row] = id;
-  ids_.insert(id);
+  if (!ids_.empty()) ids_.insert(id);
   balls.next_id = std::max(balls.next_id, id + 1);
   std::string leaf = set_.name;
   if ((b.given & SCREE_BALL_GROUP) != 0 && b.group != nullptr && *b.group != '\0') leaf += std::string(".") + b.group;

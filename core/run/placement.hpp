@@ -24,7 +24,8 @@ class Placement {
   static int ball(void* self, const scree_ball* ball);
   static int try_ball(void* self, const scree_ball* ball);
   static void warn(void* self, const char* message);
-  std::string wrong(const scree_ball& ball) const;
+  std::string wrong(const scree_ball& ball);
+  bool in_use(uint64_t id);
   bool free_of_others(const scree_ball& ball);
   bool free_of_walls(const scree_ball& ball) const;
   bool inside_cell(const scree_ball& ball) const;
@@ -38,7 +39,7 @@ class Placement {
   Random random_;
   scree_random random_table_;
   std::unordered_map<uint64_t, std::vector<uint32_t>> cells_;
-  std::unordered_set<uint64_t> ids_;
+  std::unordered_set<uint64_t> ids_;  ///< in use; filled once an id comes that is not above all others
   std::unordered_map<std::string, uint16_t> leaves_;
   double edge_ = 0;
   std::size_t indexed_ = 0, placed_ = 0;

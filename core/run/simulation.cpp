@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/heap.hpp"
 #include "core/run/placement.hpp"
 #include "core/run/rule_binding.hpp"
 #include "core/run/signals.hpp"
@@ -44,6 +45,7 @@ void Simulation::set_up() {
   for (const WallUse& use : scene.walls) add_wall(use);
   for (const BallSet& set : scene.balls) add_balls(set);
   for (const ProcessUse& use : scene.processes) add_process(use);
+  return_free_memory();
 }
 
 void Simulation::prepare() {

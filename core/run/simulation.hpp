@@ -58,7 +58,8 @@ class Simulation {
   void add_process(const ProcessUse& use);
   void bind_rules();  ///< fills the engine's book from `rules`, groups and walls
 
-  /// Rows of a group that fulfil a condition over x y z vx vy vz wx wy wz radius mass volume speed id; all of them without one.
+  /// Rows of a group that fulfil a condition over x y z vx vy vz wx wy wz radius mass volume speed id; all of them
+  /// without one.
   std::vector<uint8_t> select(const std::string& group, const Formula* where) const;
   /// One number of a ball by the name formulas use, as above.
   double ball_number(std::size_t row, const std::string& name) const;

@@ -66,7 +66,7 @@ uint8_t* Balls::require_fixed() {
 void Balls::resize(std::size_t rows) {
   each_array([&](auto& values) {
     // One ball at a time is how generators add them.
-    if (rows == values.size() + 1 && rows % 1024 == 1) values.reserve(rows + rows / 2 + 1023);
+    if (rows == values.size() + 1 && rows % 1024 == 1) values.reserve(rows + rows / 4 + 1023);
     values.resize(rows);
   });
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/heap.hpp"
 #include "core/base/isa.hpp"
 #include "core/run/summary.hpp"
 #include "packing.hpp"
@@ -56,6 +57,7 @@ int memory(std::size_t balls, scree::core::Catalogue& catalogue) {
 }  // namespace
 
 int main(int count, char** words) {
+  scree::core::tune_heap();
   scree::core::Catalogue catalogue(scree::core::SearchPath::standard({}));
   const std::string what = count > 1 ? words[1] : "";
   if (what == "memory" && count > 2) return memory(std::strtoull(words[2], nullptr, 10), catalogue);
