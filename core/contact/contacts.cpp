@@ -87,7 +87,7 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
   const std::size_t first = block * block_rows, last = first + slices_.block_size(block);
   Cursor cursor{list.begin[first], first, last};
   while (cursor.row < last) {
-    uint32_t drops[SCREE_BATCH], dropped = 0;
+    uint32_t drops[Scratch::padded], dropped = 0;
     const uint32_t n = filter(view, input, cursor, list.active.data(), s, drops, dropped);
     for (auto& column : list.state)
       for (uint32_t k = 0; k < dropped; ++k) column[drops[k]] = 0;

@@ -42,34 +42,42 @@ void part_coincident(uint32_t n, Scratch& s) {
 template <bool Periodic>
 SCREE_STAGE uint32_t filter(const BallView& b, const FilterInput& in, Cursor& at, uint8_t* active, Scratch& s,
                             uint32_t* drops, uint32_t& dropped) {
+  // Everything in locals: a store to `active`, bytes, may otherwise have changed anything that is read through a
+  // pointer.
   const double *x = b.x, *y = b.y, *z = b.z, *radius = b.radius;
   const uint32_t *other = in.other, *where = in.where;
+  const uint64_t* begin = in.begin;
+  const double(*shifts)[3] = in.shift;
+  const double margin = in.reach;
+  std::size_t row = at.row;
+  const std::size_t last_row = at.last_row;
+  uint64_t next = at.slot;
   uint32_t n = 0, gone = 0;
-  for (; at.row < at.last_row; ++at.row) {
-    const std::size_t i = at.row;
-    const uint64_t end = in.begin[i + 1];
-    if (at.slot == end) continue;
-    const double xi = x[i], yi = y[i], zi = z[i], ri = radius[i];
-    while (at.slot < end) {
+  bool full = false;
+  for (; row < last_row; ++row) {
+    const uint64_t end = begin[row + 1];
+    if (next == end) continue;
+    const double xi = x[row], yi = y[row], zi = z[row], ri = radius[row];
+    while (next < end) {
       const uint32_t used = n > gone ? n : gone;
       if (used == Scratch::size) {
-        dropped = gone;
-        return n;
+        full = true;
+        break;
       }
-      const uint64_t left = end - at.slot, room = Scratch::size - used;
-      const uint64_t stop = at.slot + (left < room ? left : room);
-      for (uint64_t slot = at.slot; slot < stop; ++slot) {
-        const uint32_t j = other[slot], word = where[slot];
+      const uint64_t left = end - next, room = Scratch::size - used;
+      const uint64_t stop = next + (left < room ? left : room);
+      for (uint64_t slot = next; slot < stop; ++slot) {
+        const uint32_t j = other[slot], word = where[slot], was = active[slot];
         double dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
         if constexpr (Periodic) {
-          const double* shift = in.shift[target::image(word)];
+          const double* shift = shifts[target::image(word)];
           dx += shift[0];
           dy += shift[1];
           dz += shift[2];
         }
-        const double square = dx * dx + dy * dy + dz * dz, sum = ri + radius[j], reach = sum + in.reach;
+        const double square = dx * dx + dy * dy + dz * dz, sum = ri + radius[j], reach = sum + margin;
         s.slot[n] = static_cast<uint32_t>(slot);
-        s.row[n] = static_cast<uint32_t>(i);
+        s.row[n] = static_cast<uint32_t>(row);
         s.other[n] = j;
         s.where[n] = word;
         s.nx[n] = dx;
@@ -77,17 +85,20 @@ SCREE_STAGE uint32_t filter(const BallView& b, const FilterInput& in, Cursor& at
         s.nz[n] = dz;
         s.square[n] = square;
         s.gap[n] = sum;
+        // No branch: whether a listed pair touches is as good as random, and a wrong guess costs more than the rest.
         // Written so that a NaN counts as touching and reaches the guards.
-        const bool apart = square >= reach * reach;
-        if (apart & (active[slot] != 0)) {
-          drops[gone++] = static_cast<uint32_t>(slot);
-          active[slot] = 0;
-        }
-        n += !apart;
+        const uint32_t near = square >= reach * reach ? 0u : 1u;
+        drops[gone] = static_cast<uint32_t>(slot);
+        gone += was & (near ^ 1u);
+        active[slot] = static_cast<uint8_t>(was & near);
+        n += near;
       }
-      at.slot = stop;
+      next = stop;
     }
+    if (full) break;
   }
+  at.row = row;
+  at.slot = next;
   dropped = gone;
   return n;
 }

@@ -110,7 +110,7 @@ void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, c
                                std::numeric_limits<double>::infinity()};
   Cursor cursor{0, 0, balls.size()};
   while (cursor.row < cursor.last_row) {
-    uint32_t drops[SCREE_BATCH], dropped = 0;
+    uint32_t drops[Scratch::padded], dropped = 0;
     const uint32_t n = stage.filter[shift != nullptr](view, everything, cursor, nobody.data(), s, drops, dropped);
     if (n == 0) continue;
     stage.geometry[0][0](view, n, 0.0, 1.0, s);
