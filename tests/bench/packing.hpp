@@ -15,9 +15,9 @@ struct Setting {
   int isa = 0;
 };
 
-/// A dense packing in a periodic cell: a face-centred lattice with jittered places and radii (uniform within 8 %),
-/// about six active contacts per ball, linear contacts. It has settled for some cycles, so lists and contacts are those
-/// of a packing at rest.
+/// A dense packing in a periodic cell: a body-centred lattice with jittered places and radii (uniform within 8 %) that
+/// came to rest with friction: about six active contacts and nine neighbours within the skin per ball, as in a random
+/// packing; linear contacts. The packing without friction starts from the same places.
 std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Catalogue& catalogue);
 
 /// ns per ball-step over the given number of cycles, list rebuilds included.
