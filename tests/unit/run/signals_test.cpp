@@ -2,6 +2,7 @@
 
 #include <signal.h>
 #include <sys/resource.h>
+#include <time.h>
 
 #include "core/base/crash_note.hpp"
 #include "core/base/threads.hpp"
@@ -46,6 +47,10 @@ TEST_CASE("the first signal asks to stop, the second ends the process") {
       if (stop_signal() != 0) return 1;
       ::raise(c.signal);
       if (stop_signal() != c.signal || static_cast<int>(stop_exit(stop_signal())) != c.code) return 2;
+      // At once again is the same request, as from `timeout`; a moment later it is a second one.
+      ::raise(c.signal);
+      const timespec moment{0, 300000000};
+      ::nanosleep(&moment, nullptr);
       ::raise(c.signal);
       return 3;
     });
