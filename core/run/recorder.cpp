@@ -109,8 +109,8 @@ void Recorder::load(const ArchiveReader& archive, const std::string& prefix) {
   const std::vector<uint8_t> bytes = archive.get<uint8_t>(prefix + "/writer");
   open();
   if (table_.load != nullptr && table_.load(writer_.get(), bytes.data(), bytes.size()) != 0)
-    throw Refusal(Exit::io, archive.path() + ": section '" + prefix + "/writer': the writer of record '" + record_.name +
-                                "' cannot read its saved state");
+    throw Refusal(Exit::io, archive.path() + ": section '" + prefix + "/writer': the writer of record '" +
+                                record_.name + "' cannot read its saved state");
 }
 
 }  // namespace scree::core

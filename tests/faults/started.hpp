@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 namespace support {
@@ -20,7 +21,7 @@ class Started {
   /// `file_limit`: bytes that a file may have, as on a full disk; 0: no limit.
   Started(const std::vector<std::string>& words, const std::string& folder, rlim_t file_limit = 0)
       : out_(caught_ / "out"), err_(caught_ / "err") {
-    const std::string program = SCREE_BINARY_DIR "/bin/scree";
+    const std::string program = support::binary_dir() + "/bin/scree";
     pid_ = ::fork();
     if (pid_ != 0) return;
     ::dup2(::open(out_.c_str(), O_WRONLY | O_CREAT, 0666), STDOUT_FILENO);

@@ -6,6 +6,7 @@
 
 #include "laws/columns.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 namespace {
 using namespace scree::test;
@@ -18,7 +19,7 @@ using scree::core::SearchPath;
 std::vector<std::string> compilers() {
   std::vector<std::string> found;
   for (const char* compiler : {"gxx", "clangxx"})
-    if (std::filesystem::exists(std::filesystem::path(SCREE_BINARY_DIR) / "tests" / compiler / "contact_model"))
+    if (std::filesystem::exists(std::filesystem::path(support::binary_dir()) / "tests" / compiler / "contact_model"))
       found.push_back(compiler);
   return found;
 }
@@ -26,8 +27,8 @@ Catalogue& built_by(const std::string& compiler) {
   static std::map<std::string, std::unique_ptr<Catalogue>> open;
   auto& catalogue = open[compiler];
   if (!catalogue)
-    catalogue =
-        std::make_unique<Catalogue>(SearchPath{{}, {std::filesystem::path(SCREE_BINARY_DIR) / "tests" / compiler}});
+    catalogue = std::make_unique<Catalogue>(
+        SearchPath{{}, {std::filesystem::path(support::binary_dir()) / "tests" / compiler}});
   return *catalogue;
 }
 const scree_contact_model& model_of(const std::string& compiler, const std::string& name) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/plugin/catalogue.hpp"
+#include "support/paths.hpp"
 
 namespace scree::test {
 
@@ -33,7 +34,7 @@ class PluginFolder {
   }
   /// Puts one of the libraries of tests/loader/wrong here, under the name that a scene would use.
   void put(const std::string& library, const std::string& name = "spring") const {
-    std::filesystem::copy_file(std::filesystem::path(SCREE_BINARY_DIR) / "tests" / "wrong" / library, file(name),
+    std::filesystem::copy_file(std::filesystem::path(support::binary_dir()) / "tests" / "wrong" / library, file(name),
                                std::filesystem::copy_options::overwrite_existing);
     chmod(file(name).c_str(), 0644);
   }

@@ -6,6 +6,7 @@
 #include "core/plugin/elf_check.hpp"
 #include "loader/plugin_folder.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 namespace {
 using namespace scree::test;
@@ -117,7 +118,7 @@ TEST_CASE("what is no library at all is refused") {
         "DIR/contact_model/empty.so: not a shared library (it does not begin as an ELF file): a plug-in is built with "
         "scree_add_plugin()");
   CHECK(refusal(folder, more, "folder") == "DIR/contact_model/folder.so: not a file: a plug-in is a shared library");
-  std::vector<std::byte> other = bytes_of(std::filesystem::path(SCREE_BINARY_DIR) / "tests/wrong/good.so");
+  std::vector<std::byte> other = bytes_of(std::filesystem::path(support::binary_dir()) / "tests/wrong/good.so");
   other[18] = std::byte{0xf3};  // e_machine: RISC-V
   CHECK_THROWS_WITH(scree::core::check_elf(other, "spring.so"),
                     "spring.so: built for another machine; this scree runs on 64-bit x86-64: build the plug-in on this "
@@ -125,7 +126,7 @@ TEST_CASE("what is no library at all is refused") {
 }
 
 TEST_CASE("a library that is cut short anywhere or has any one byte changed never crashes the check") {
-  const std::vector<std::byte> good = bytes_of(std::filesystem::path(SCREE_BINARY_DIR) / "tests/wrong/good.so");
+  const std::vector<std::byte> good = bytes_of(std::filesystem::path(support::binary_dir()) / "tests/wrong/good.so");
   REQUIRE(good.size() > 4096);
   CHECK_NOTHROW(scree::core::check_elf(good, "good.so"));
   std::size_t refusals = 0, tries = 0;

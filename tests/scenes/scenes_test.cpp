@@ -5,6 +5,7 @@
 
 #include "core/run/run.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace scree::core;
@@ -13,7 +14,7 @@ namespace {
 
 std::vector<std::filesystem::path> scenes() {
   std::vector<std::filesystem::path> found;
-  for (const auto& entry : std::filesystem::directory_iterator(SCREE_SOURCE_DIR "/tests/scenes"))
+  for (const auto& entry : std::filesystem::directory_iterator(support::source_dir() + "/tests/scenes"))
     if (entry.path().extension() == ".yaml") found.push_back(entry.path());
   std::sort(found.begin(), found.end());
   return found;
@@ -26,7 +27,7 @@ TEST_CASE("every verification scene measures its closed form") {
   for (const std::filesystem::path& path : scenes()) {
     INFO(path.filename().string());
     const TemporaryFolder folder;
-    Catalogue catalogue(SearchPath{{SCREE_PLUGINS}, {}});
+    Catalogue catalogue(SearchPath{{support::plugin_dir()}, {}});
     ReadOptions read;
     read.file = path.string();
     RunOptions options;

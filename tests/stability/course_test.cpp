@@ -5,13 +5,14 @@
 #include <vector>
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 TEST_CASE("every scene of the course passes its expectations") {
   namespace fs = std::filesystem;
   std::vector<std::string> scenes;
   const TemporaryFolder folder;
-  for (const auto& entry : fs::directory_iterator(SCREE_SOURCE_DIR "/examples/course")) {
+  for (const auto& entry : fs::directory_iterator(support::source_dir() + "/examples/course")) {
     if (entry.path().extension() != ".yaml") continue;
     scenes.push_back(entry.path().filename().string());
     fs::copy(entry.path(), folder / scenes.back());

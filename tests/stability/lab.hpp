@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/run/simulation.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace lab {
@@ -15,7 +16,7 @@ namespace lab {
 /// The plug-ins of this build and a folder for scenes. `make` sets a scene up; nothing has moved yet.
 class Lab {
  public:
-  Lab() : catalogue_(scree::core::SearchPath{{SCREE_PLUGINS}, {}}) {}
+  Lab() : catalogue_(scree::core::SearchPath{{support::plugin_dir()}, {}}) {}
   scree::core::Catalogue& catalogue() { return catalogue_; }
   const TemporaryFolder& folder() const { return folder_; }
 

@@ -3,6 +3,7 @@
 
 #include "stability/lab.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/program.hpp"
 
 namespace {
@@ -84,7 +85,7 @@ TEST_CASE("D36 STOP: a law that returns not a number stops the run in the same c
   const std::string scene =
       replaced(replaced(drop, "model: linear, kn: 1e5, ks: 1e5, fric: 0.5", "model: nan_law, kn: 1e5, until: 1e-6"),
                "cycle: 50", "cycle: 100000");
-  const Tried tried(scene, "", {"--plugins", SCREE_BINARY_DIR "/tests/hostile"});
+  const Tried tried(scene, "", {"--plugins", support::binary_dir() + "/tests/hostile"});
   INFO(tried.end.err);
   CHECK(tried.end.code == 5);
   CHECK(has(tried.end.err, "is not a finite number"));

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/paths.hpp"
+
 namespace support {
 
 using Vector = std::array<double, 3>;
@@ -19,7 +21,7 @@ using Vector = std::array<double, 3>;
 /// The table of component `name` in <kind>/<name>.so. The library stays open.
 template <class Table>
 const Table& opened(const std::string& kind, const std::string& name) {
-  const std::string file = std::string(SCREE_PLUGINS) + "/" + kind + "/" + name + ".so";
+  const std::string file = support::plugin_dir() + "/" + kind + "/" + name + ".so";
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) throw std::runtime_error(dlerror());
   const auto* header = static_cast<const scree_plugin_header*>(dlsym(library, "scree_plugin"));

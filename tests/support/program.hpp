@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace support {
@@ -22,7 +23,7 @@ struct ProgramEnd {
 /// it.
 inline ProgramEnd scree(const std::vector<std::string>& words, const std::string& folder = ".", std::string out = "") {
   const TemporaryFolder caught;
-  const std::string errors = caught / "err", program = SCREE_BINARY_DIR "/bin/scree";
+  const std::string errors = caught / "err", program = support::binary_dir() + "/bin/scree";
   const bool keep = out.empty();
   if (keep) out = caught / "out";
   const pid_t pid = ::fork();

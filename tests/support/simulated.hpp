@@ -3,6 +3,7 @@
 #include <string>
 
 #include "core/run/simulation.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace support {
@@ -12,7 +13,7 @@ namespace support {
 class Simulated {
  public:
   explicit Simulated(const std::string& scene, const std::string& balls = "", unsigned threads = 1)
-      : catalogue_(scree::core::SearchPath{{SCREE_PLUGINS}, {}}) {
+      : catalogue_(scree::core::SearchPath{{support::plugin_dir()}, {}}) {
     write_text(folder_ / "scene.yaml", scene);
     if (!balls.empty()) write_text(folder_ / "balls.csv", balls);
     scree::core::ReadOptions options;

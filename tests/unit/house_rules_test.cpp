@@ -4,6 +4,7 @@
 #include <set>
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/source_scan.hpp"
 
 namespace {
@@ -15,10 +16,10 @@ using scree::test::SourceFile;
 constexpr std::size_t longest_file = 500;
 
 std::vector<SourceFile> all_sources() {
-  return scan_folders(SCREE_SOURCE_DIR, {"core", "sdk", "contact_models", "plugins", "tests", "examples"});
+  return scan_folders(support::source_dir(), {"core", "sdk", "contact_models", "plugins", "tests", "examples"});
 }
 std::vector<SourceFile> product_sources() {
-  return scan_folders(SCREE_SOURCE_DIR, {"core", "sdk", "contact_models", "plugins"});
+  return scan_folders(support::source_dir(), {"core", "sdk", "contact_models", "plugins"});
 }
 
 // PolyData is the name that VTK gives its file format.
@@ -54,7 +55,7 @@ std::set<std::string> folders_below(const std::filesystem::path& folder) {
 
 // The names of all components in the tree: each is a folder.
 std::set<std::string> component_names() {
-  const std::filesystem::path root = SCREE_SOURCE_DIR;
+  const std::filesystem::path root = support::source_dir();
   std::set<std::string> names = folders_below(root / "contact_models");
   for (const char* kind : {"walls", "generators", "processes", "writers"})
     names.merge(folders_below(root / "plugins" / kind));
@@ -83,7 +84,7 @@ TEST_CASE("numbers and randomness depend on neither library nor locale", "[house
     INFO(file.path);
     CHECK_FALSE(forbidden_call(file.code));
   }
-  for (const SourceFile& file : scan_folders(SCREE_SOURCE_DIR, {"contact_models"})) {
+  for (const SourceFile& file : scan_folders(support::source_dir(), {"contact_models"})) {
     INFO(file.path);
     CHECK_FALSE(forbidden_in_a_law(file.code));
   }
@@ -93,7 +94,7 @@ TEST_CASE("the kernel names no plug-in component", "[house]") {
   const std::set<std::string> components = component_names();
   REQUIRE(components.count("linear") == 1);
   REQUIRE(components.count("gravity") == 1);
-  for (const SourceFile& file : scan_folders(SCREE_SOURCE_DIR, {"core"}))
+  for (const SourceFile& file : scan_folders(support::source_dir(), {"core"}))
     for (const std::string& text : file.strings) {
       INFO(file.path << " names the component \"" << text << "\"");
       CHECK(components.count(text) == 0);

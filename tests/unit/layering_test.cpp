@@ -3,6 +3,7 @@
 #include <set>
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/source_scan.hpp"
 
 namespace {
@@ -90,7 +91,8 @@ SourceFile file_with(const std::string& path, const std::string& text) {
 }  // namespace
 
 TEST_CASE("the include table is held", "[layering]") {
-  const auto files = scree::test::scan_folders(SCREE_SOURCE_DIR, {"core", "sdk/include", "contact_models", "plugins"});
+  const auto files =
+      scree::test::scan_folders(support::source_dir(), {"core", "sdk/include", "contact_models", "plugins"});
   REQUIRE(files.size() > 10);
   std::size_t includes = 0;
   for (const SourceFile& file : files) {

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "unit/scene_fakes.hpp"
 
 using namespace scree::core;
@@ -12,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string folder = std::string(SCREE_SOURCE_DIR) + "/tests/scenes_broken/";
+const std::string folder = support::source_dir() + "/tests/scenes_broken/";
 
 std::string text_of(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);

@@ -3,11 +3,12 @@
 
 #include "core/scene/scene.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 
 using namespace scree::core;
 
 TEST_CASE("the scene of docs/scenes.md is accepted with the built-in plug-ins, and opens only those it names") {
-  std::ifstream stream(std::string(SCREE_SOURCE_DIR) + "/docs/scenes.md");
+  std::ifstream stream(support::source_dir() + "/docs/scenes.md");
   std::ostringstream page;
   page << stream.rdbuf();
   const std::string text = page.str();

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "unit/scene_fakes.hpp"
 
 using namespace scree::core;
@@ -224,7 +225,7 @@ TEST_CASE("a missing plug-in alone exits with 4, beside other errors with 3") {
 }
 
 TEST_CASE("the whole scene of docs/scenes.md is accepted") {
-  std::ifstream stream(std::string(SCREE_SOURCE_DIR) + "/docs/scenes.md");
+  std::ifstream stream(support::source_dir() + "/docs/scenes.md");
   std::ostringstream page;
   page << stream.rdbuf();
   const std::string text = page.str();

@@ -9,6 +9,7 @@
 #include "support/catch.hpp"
 #include "support/frame_files.hpp"
 #include "support/opened.hpp"
+#include "support/paths.hpp"
 
 namespace {
 
@@ -33,9 +34,9 @@ int read_back(std::size_t balls, std::size_t contacts, uint32_t frames, bool dam
     if (damage && name.find("balls/") == 0) content[content.find("\n_") + 2 + 40] ^= 1;
     std::ofstream(folder / name, std::ios::binary) << content;
   }
-  const std::string command = std::string(SCREE_VTK_PYTHON) + " '" + SCREE_SOURCE_DIR + "/tests/vtk/read_back.py' '" +
-                              folder.string() + "' " + std::to_string(balls) + " " + std::to_string(contacts) + " " +
-                              std::to_string(frames);
+  const std::string command = std::string(SCREE_VTK_PYTHON) + " '" + support::source_dir() +
+                              "/tests/vtk/read_back.py' '" + folder.string() + "' " + std::to_string(balls) + " " +
+                              std::to_string(contacts) + " " + std::to_string(frames);
   const int status = std::system(command.c_str());
   std::filesystem::remove_all(folder);
   return status;

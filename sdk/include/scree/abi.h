@@ -109,8 +109,8 @@ typedef struct scree_batch {
   const double* gap;          /* m, negative when overlapping */
   const double *vx, *vy, *vz; /* velocity of 2 relative to 1 at the contact point, m/s */
   const double *wx, *wy, *wz; /* spin of 2 relative to 1, rad/s; null unless SCREE_NEEDS_SPIN */
-  const double *tx, *ty, *tz; /* turn of the contact frame over the drift: tilt of the normal plus mean spin about the new
-                                 normal, each as 2 tan(angle/2) along its axis; null unless SCREE_NEEDS_TURN */
+  const double *tx, *ty, *tz; /* turn of the contact frame over the drift: tilt of the normal plus mean spin about the
+                                 new normal, each as 2 tan(angle/2) along its axis; null unless SCREE_NEEDS_TURN */
   const double *r1, *r2;      /* m; a wall has r2 = 0, meaning flat */
   const double* mass;         /* effective mass m1 m2/(m1 + m2), kg; a wall counts as infinite */
   const uint8_t* bonded;      /* null in a touch list */

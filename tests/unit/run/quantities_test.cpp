@@ -7,6 +7,7 @@
 #include "core/run/expectation.hpp"
 #include "core/run/fields.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/simulated.hpp"
 
 using namespace scree::core;
@@ -232,7 +233,7 @@ TEST_CASE("expectations: bounds, tolerance, distance, and NaN fails", "[run]") {
 
 TEST_CASE("quantities: the page of quantities names each of them", "[run]") {
   Simulated scene(scene_with(""), three_balls);
-  const std::string page = read_text(std::string(SCREE_SOURCE_DIR) + "/docs/quantities.md");
+  const std::string page = read_text(support::source_dir() + "/docs/quantities.md");
   for (const std::string& name : published_names(*scene)) {
     if (name.starts_with("walls.")) continue;
     const std::string shown =

@@ -4,6 +4,7 @@
 
 #include "core/run/state.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 // `start: {state}`: the reference is the run that the state was saved from, going on.
@@ -31,7 +32,7 @@ stages: [{settle: [{cycle: 100}]}]
 
 SearchPath build_path() {
   SearchPath path;
-  path.others = {SCREE_PLUGINS};
+  path.others = {support::plugin_dir()};
   return path;
 }
 

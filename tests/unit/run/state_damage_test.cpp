@@ -5,6 +5,7 @@
 #include "core/run/packing.hpp"
 #include "core/run/state.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 // A file whose hashes are right but whose values are not those of a run: it must be refused with the section named, or
@@ -33,7 +34,7 @@ stages: [{settle: [{cycle: 100}]}]
 
 SearchPath build_path() {
   SearchPath path;
-  path.others = {SCREE_PLUGINS};
+  path.others = {support::plugin_dir()};
   return path;
 }
 

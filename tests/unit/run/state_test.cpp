@@ -5,6 +5,7 @@
 
 #include "core/base/isa.hpp"
 #include "support/catch.hpp"
+#include "support/paths.hpp"
 #include "support/temporary_folder.hpp"
 
 // What is checked here needs no closed form: a run that was saved, loaded and continued must have the same bits as the
@@ -50,7 +51,7 @@ stages:
 
 Catalogue catalogue_of_build() {
   SearchPath path;
-  path.others = {SCREE_PLUGINS};
+  path.others = {support::plugin_dir()};
   return Catalogue(path);
 }
 
