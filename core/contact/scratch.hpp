@@ -5,6 +5,15 @@
 
 namespace scree::core {
 
+/// A stretch of listed pairs that the filter looks at together: separation of centres, its square, sum of radii, and
+/// whether they touch.
+struct Window {
+  static constexpr uint32_t size = 64;
+  double x[size], y[size], z[size], square[size], sum[size];
+  int64_t near[size];
+  uint32_t row[size + 8];  ///< rows are written in eights
+};
+
 /// One batch on its way through the stages, small enough for the first-level cache. One per thread.
 /// The filter writes one place past the end of a full batch, hence the padding.
 struct alignas(64) Scratch {
@@ -25,6 +34,7 @@ struct alignas(64) Scratch {
   double sliding[padded];
   double state[state_words][padded];
   double property[state_words * 2][padded];
+  Window window;
   uint32_t slot[padded], row[padded], other[padded], where[padded];
 };
 

@@ -2,10 +2,11 @@
 
 #include <cmath>
 
+#include "core/contact/compaction.hpp"
 #include "core/contact/touch_list.hpp"
 
-// The portable stages. Each body is compiled for three instruction sets, as the laws are, and gives the same bits on
-// all: elementwise arithmetic only, no contraction, no reassociated sums.
+// The stages. Each body is compiled for three instruction sets, as the laws are, and gives the same bits on all:
+// elementwise arithmetic only, no contraction, no reassociated sums.
 
 namespace scree::core {
 
@@ -39,68 +40,70 @@ void part_coincident(uint32_t n, Scratch& s) {
   }
 }
 
+// The rows of the slots from `next` on, one for each. A row is written eight times at once and the next one overwrites
+// what is too much: how many slots a row has cannot be guessed, and a loop over them would guess wrong once a row.
+SCREE_STAGE std::size_t expand_rows(const uint64_t* begin, std::size_t row, uint64_t next, uint32_t m, uint32_t* rows) {
+  for (uint32_t k = 0; k < m;) {
+    const uint64_t left = begin[row + 1] - (next + k);
+    const uint32_t count = left < m - k ? static_cast<uint32_t>(left) : m - k;
+    for (uint32_t first = k; first < k + count; first += 8)
+      for (uint32_t q = 0; q < 8; ++q) rows[first + q] = static_cast<uint32_t>(row);
+    k += count;
+    row += count == left ? 1 : 0;
+  }
+  return row;
+}
+
 template <bool Periodic>
+SCREE_STAGE void measure(const BallView& b, const FilterInput& in, uint64_t next, uint32_t m, Window& w) {
+  const double *x = b.x, *y = b.y, *z = b.z, *radius = b.radius;
+  const uint32_t *other = in.other + next, *where = in.where + next, *row = w.row;
+  double *wx = w.x, *wy = w.y, *wz = w.z, *squares = w.square, *sums = w.sum;
+  int64_t* touches = w.near;
+  const double margin = in.reach;
+  double edge[3] = {0, 0, 0};
+  if constexpr (Periodic)
+    for (int axis = 0; axis < 3; ++axis) edge[axis] = in.shift[1 << (2 * axis)][axis];
+  const auto one = [&](uint32_t k) SCREE_BODY {
+    const auto i = static_cast<int32_t>(row[k]), j = static_cast<int32_t>(other[k]);  // gathers want signed
+    double dx = x[j] - x[i], dy = y[j] - y[i], dz = z[j] - z[i];
+    if constexpr (Periodic) {
+      // Two bits an axis: 1 is an edge further, 2 an edge back.
+      const auto image = static_cast<int32_t>(target::image(where[k]));
+      dx += edge[0] * ((image & 1) - (image >> 1 & 1));
+      dy += edge[1] * ((image >> 2 & 1) - (image >> 3 & 1));
+      dz += edge[2] * ((image >> 4 & 1) - (image >> 5 & 1));
+    }
+    const double square = dx * dx + dy * dy + dz * dz, sum = radius[i] + radius[j], reach = sum + margin;
+    wx[k] = dx;
+    wy[k] = dy;
+    wz[k] = dz;
+    squares[k] = square;
+    sums[k] = sum;
+    // Written so that a NaN counts as touching and reaches the guards.
+    touches[k] = square >= reach * reach ? 0 : 1;
+  };
+#pragma omp simd
+  for (uint32_t k = 0; k < m; ++k) one(k);
+}
+
+template <bool Periodic, class Compaction>
 SCREE_STAGE uint32_t filter(const BallView& b, const FilterInput& in, Cursor& at, uint8_t* active, Scratch& s,
                             uint32_t* drops, uint32_t& dropped) {
-  // Everything in locals: a store to `active`, bytes, may otherwise have changed anything that is read through a
-  // pointer.
-  const double *x = b.x, *y = b.y, *z = b.z, *radius = b.radius;
-  const uint32_t *other = in.other, *where = in.where;
-  const uint64_t* begin = in.begin;
-  const double(*shifts)[3] = in.shift;
-  const double margin = in.reach;
-  std::size_t row = at.row;
-  const std::size_t last_row = at.last_row;
+  const uint64_t end = in.begin[at.last_row];
   uint64_t next = at.slot;
-  uint32_t n = 0, gone = 0;
-  bool full = false;
-  for (; row < last_row; ++row) {
-    const uint64_t end = begin[row + 1];
-    if (next == end) continue;
-    const double xi = x[row], yi = y[row], zi = z[row], ri = radius[row];
-    while (next < end) {
-      const uint32_t used = n > gone ? n : gone;
-      if (used == Scratch::size) {
-        full = true;
-        break;
-      }
-      const uint64_t left = end - next, room = Scratch::size - used;
-      const uint64_t stop = next + (left < room ? left : room);
-      for (uint64_t slot = next; slot < stop; ++slot) {
-        const uint32_t j = other[slot], word = where[slot], was = active[slot];
-        double dx = x[j] - xi, dy = y[j] - yi, dz = z[j] - zi;
-        if constexpr (Periodic) {
-          const double* shift = shifts[target::image(word)];
-          dx += shift[0];
-          dy += shift[1];
-          dz += shift[2];
-        }
-        const double square = dx * dx + dy * dy + dz * dz, sum = ri + radius[j], reach = sum + margin;
-        s.slot[n] = static_cast<uint32_t>(slot);
-        s.row[n] = static_cast<uint32_t>(row);
-        s.other[n] = j;
-        s.where[n] = word;
-        s.nx[n] = dx;
-        s.ny[n] = dy;
-        s.nz[n] = dz;
-        s.square[n] = square;
-        s.gap[n] = sum;
-        // No branch: whether a listed pair touches is as good as random, and a wrong guess costs more than the rest.
-        // Written so that a NaN counts as touching and reaches the guards.
-        const uint32_t near = square >= reach * reach ? 0u : 1u;
-        drops[gone] = static_cast<uint32_t>(slot);
-        gone += was & (near ^ 1u);
-        active[slot] = static_cast<uint8_t>(was & near);
-        n += near;
-      }
-      next = stop;
-    }
-    if (full) break;
+  Filled filled{0, 0};
+  while (next < end && Scratch::size - (filled.n > filled.gone ? filled.n : filled.gone) >= Window::size) {
+    const uint32_t m = end - next < Window::size ? static_cast<uint32_t>(end - next) : Window::size;
+    at.row = expand_rows(in.begin, at.row, next, m, s.window.row);
+    measure<Periodic>(b, in, next, m, s.window);
+    filled = Compaction::move(in, {next, m, active, drops}, filled, s);
+    next += m;
   }
-  at.row = row;
   at.slot = next;
-  dropped = gone;
-  return n;
+  if (next == end) at.row = at.last_row;
+  dropped = filled.gone;
+  return filled.n;
 }
 
 template <bool Spin, bool Turn>
@@ -230,12 +233,12 @@ SCREE_STAGE void scatter(uint32_t n, std::size_t first_row, double* slice, Scrat
 }
 
 // One struct of static functions per instruction set; the macro is the only way to put the attribute on each.
-#define SCREE_STAGES(NAME, TARGET)                                                                             \
+#define SCREE_STAGES(NAME, TARGET, COMPACTION)                                                                 \
   struct NAME {                                                                                                \
     template <bool P>                                                                                          \
     TARGET static uint32_t filter_stage(const BallView& b, const FilterInput& in, Cursor& at, uint8_t* active, \
                                         Scratch& s, uint32_t* drops, uint32_t& dropped) {                      \
-      return filter<P>(b, in, at, active, s, drops, dropped);                                                  \
+      return filter<P, COMPACTION>(b, in, at, active, s, drops, dropped);                                      \
     }                                                                                                          \
     template <bool S, bool T>                                                                                  \
     TARGET static bool geometry_stage(const BallView& b, uint32_t n, double dt, double limit, Scratch& s) {    \
@@ -258,10 +261,10 @@ SCREE_STAGE void scatter(uint32_t n, std::size_t first_row, double* slice, Scrat
     }                                                                                                          \
   };
 
-SCREE_STAGES(Baseline, __attribute__((flatten)))
+SCREE_STAGES(Baseline, __attribute__((flatten)), PortableCompaction)
 #if defined(__x86_64__)
-SCREE_STAGES(V3, __attribute__((target("arch=x86-64-v3"), flatten)))
-SCREE_STAGES(V4, __attribute__((target("arch=x86-64-v4"), flatten)))
+SCREE_STAGES(V3, __attribute__((target("arch=x86-64-v3"), flatten)), PortableCompaction)
+SCREE_STAGES(V4, __attribute__((target("arch=x86-64-v4"), flatten)), Avx512Compaction)
 #else
 using V3 = Baseline;
 using V4 = Baseline;

@@ -16,11 +16,12 @@ struct Setting {
 };
 
 /// A dense packing in a periodic cell: a body-centred lattice with jittered places and radii (uniform within 8 %) that
-/// came to rest with friction: about six active contacts and nine neighbours within the skin per ball, as in a random
-/// packing; linear contacts. The packing without friction starts from the same places.
+/// came to rest under its own contact law: about six active contacts and nine neighbours within the skin per ball, as
+/// in a random packing; linear contacts.
 std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Catalogue& catalogue);
 
-/// ns per ball-step over the given number of cycles, list rebuilds included.
+/// ns per ball-step over the given number of cycles, list rebuilds included: processor time on one thread, so that
+/// other load on the machine does not count, elapsed time on several.
 double measure(core::Simulation& simulation, std::size_t cycles);
 
 }  // namespace scree::bench
