@@ -158,7 +158,7 @@ void Engine::forces() {
                           excess.plugin + "'); the step is " + number(clock.dt) + " s, the stable limit " +
                           number(step.bound().step) +
                           " s: use stiffer contacts, slower motion or a smaller 'timestep', or raise 'overlap_limit'",
-                      {excess.id1, excess.id2});
+                      {excess.id1, excess.id2}, NumericalStop::State::whole);
 }
 
 MotionInput Engine::motion_input() {
@@ -205,7 +205,7 @@ void Engine::check_speed(double fastest) {
                             number(speed * clock.dt / balls[Column::radius][row]) + " of its radius in one cycle (" +
                             number(speed) + " m/s with a step of " + number(clock.dt) +
                             " s), so it could pass through others unseen: lower 'timestep', or slow it down",
-                        {id});
+                        {id}, NumericalStop::State::whole);
   }
 }
 
@@ -255,7 +255,6 @@ void Engine::advance() {
         for (uint32_t k = 0; k < process->table->sums; ++k) const_cast<Process*>(process)->sums[k] += *sums++;
   }
   if (!finite) stop_not_finite();
-  check_speed(fastest);
   drift_walls();
   ball_travel_ += fastest * clock.dt;
   clock.dt_back = clock.dt_law = clock.dt;
@@ -269,6 +268,7 @@ void Engine::synchronize() {
     const Observation& now = observe();
     for (std::size_t c = 0; c < 3; ++c) {
       std::copy(now.velocity[c].begin(), now.velocity[c].end(),
+  check_speed(fastest);  // after the drift of all, so that a stop leaves one time behind
                 balls[static_cast<Column>(static_cast<std::size_t>(Column::vx) + c)]);
       if (balls.has(Column::wx))
         std::copy(now.spin[c].begin(), now.spin[c].end(),

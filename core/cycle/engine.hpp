@@ -22,9 +22,12 @@ namespace scree::core {
 /// A run that went wrong at a known cycle: exit 5. `balls` are the ids to look at first.
 class NumericalStop : public Refusal {
  public:
-  NumericalStop(const std::string& message, std::vector<uint64_t> worst)
-      : Refusal(Exit::numerical, message), balls(std::move(worst)) {}
+  /// What the engine holds when it stops: all of one time, which can be saved, or a cycle that was left half way.
+  enum class State { whole, broken };
+  NumericalStop(const std::string& message, std::vector<uint64_t> worst, State left = State::broken)
+      : Refusal(Exit::numerical, message), balls(std::move(worst)), state(left) {}
   std::vector<uint64_t> balls;
+  State state;
 };
 
 /// Model time as a count: no rounding piles up while the step stays the same.

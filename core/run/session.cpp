@@ -268,6 +268,7 @@ RunResult Session::run() {
   progress_.finish();
   folder_.files().flush();
   io_failed_ = io_failed_ || folder_.files().failed();
+    save_stopped(stop);
   for (const auto& recorder : recorders_) io_failed_ = io_failed_ || !recorder->error().empty();
   if (io_failed_ && (ended_ == Exit::done || ended_ == Exit::expectation)) {
     ended_ = Exit::io;

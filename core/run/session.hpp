@@ -45,6 +45,7 @@ class Session {
   void report_overlaps();
   void write_failure(const NumericalStop& stop);
   Summary summary() const;
+  void save_stopped(const NumericalStop& stop);
   double seconds() const;
 
   std::unique_ptr<Simulation> simulation_;

@@ -152,6 +152,8 @@ struct RunAction {
   std::vector<Until> until;  ///< any of them ends the run
 };
 struct SaveAction {
+/// What a numerical stop calls the state it saves; no `save` may have that name.
+inline constexpr const char* stopped_state = "stopped";
   Name name;
 };
 struct Action {
