@@ -108,10 +108,14 @@ void Engine::choose_step() {
                                      number(bound.step) + " s (ball " + std::to_string(bound.ball) + ", " + bound.term +
                                      "): lower 'timestep' to at most " + number(step.allowed()) +
                                      " s, leave it out for the automatic step, or say 'unsafe: true'");
-    // Without balls a stage may still bring some; `advance` refuses when none has.
     if (step.step() == 0 && balls.size() > 0) refuse_without_step();
   }
-  clock.change_step(step.step());
+  if (balls.size() > 0 || !step.automatic()) return clock.change_step(step.step());
+  follow_idle_step();
+}
+
+void Engine::follow_idle_step() {
+  if (balls.size() == 0 && step.automatic() && idle_step > 0) clock.change_step(idle_step);
 }
 
 double Engine::exact_travel() {

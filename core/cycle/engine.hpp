@@ -67,6 +67,7 @@ class Engine {
   double overlap_warning = 0.05;
   double wanted_skin = 0;      ///< m; 0: chosen from the radii
   bool unsafe = false;         ///< the user accepts a step above the bound
+  double idle_step = 0;        ///< s; what an automatic step is while there is no ball, where nothing limits it
   bool sums_wanted = false;    ///< forces() also sums contact force sizes (unbalanced ratio)
   bool report_wanted = false;  ///< forces() also keeps every contact's force
   std::function<void(const std::string&)> warn = [](const std::string&) {};
@@ -74,6 +75,8 @@ class Engine {
   /// Call after any edit of balls, walls, rules or processes: makes the columns exist that the scene needs, and chooses
   /// the step. Does not touch contacts' memory.
   void prepare();
+  /// Call after a change of `idle_step`.
+  void follow_idle_step();
   /// Detection when the skin is used up, then all contact laws. Does nothing when the forces of this time are there.
   void forces();
   /// Reads time n; forces() must have run. Never changes the trajectory.
