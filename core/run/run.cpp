@@ -8,6 +8,7 @@
 #include "core/run/session.hpp"
 #include "core/run/signals.hpp"
 #include "core/run/state.hpp"
+#include "core/run/target_check.hpp"
 
 namespace scree::core {
 
@@ -61,6 +62,7 @@ std::unique_ptr<Simulation> begin_scene(Scene scene, Catalogue& catalogue, const
   } else {
     load_specimen(*simulation, ArchiveReader(state));
   }
+  targets_exist(*simulation);
   return simulation;
 }
 
