@@ -167,7 +167,7 @@ void Engine::forces() {
 
 MotionInput Engine::motion_input() {
   return {&balls,      &contacts.slices(), &adders_,      &scalers_, contacts.isa,
-          clock.cycle, clock.time(),       clock.dt_back, clock.dt};
+          clock.cycle, clock.time(),       clock.dt_back, clock.dt,  sum_words(adders_) + sum_words(scalers_)};
 }
 
 void Engine::stop_not_finite() {
@@ -245,15 +245,19 @@ void Engine::advance() {
   if (clock.dt == 0) refuse_without_step();
   const MotionInput input = motion_input();
   Slices& slices = contacts.slices();
-  std::vector<MotionResult> results(slices.blocks());
-  team.each_block(slices.blocks(), [&](std::size_t block) { results[block] = move_block(input, block); });
+  const std::size_t words = input.sum_words;
+  motion_.resize(slices.blocks());
+  block_sums_.assign(slices.blocks() * words, 0.0);
+  team.each_block(slices.blocks(), [&](std::size_t block) {
+    motion_[block] = move_block(input, block, block_sums_.data() + block * words);
+  });
   double fastest = 0;
   bool finite = true;
   for (Process& process : processes) process.sums.assign(process.table->sums, 0.0);
-  for (const MotionResult& result : results) {
+  const double* sums = block_sums_.data();
+  for (const MotionResult& result : motion_) {
     fastest = std::max(fastest, result.fastest);
     finite = finite && result.finite;
-    const double* sums = result.sums.data();
     for (const auto* order : {&adders_, &scalers_})
       for (const Process* process : *order)
         for (uint32_t k = 0; k < process->table->sums; ++k) const_cast<Process*>(process)->sums[k] += *sums++;
@@ -264,6 +268,7 @@ void Engine::advance() {
   clock.dt_back = clock.dt_law = clock.dt;
   ++clock.cycle;
   forces_current_ = false;
+  check_speed(fastest);  // after the drift of all, so that a stop leaves one time behind
   run_model_processes();
 }
 
@@ -272,7 +277,6 @@ void Engine::synchronize() {
     const Observation& now = observe();
     for (std::size_t c = 0; c < 3; ++c) {
       std::copy(now.velocity[c].begin(), now.velocity[c].end(),
-  check_speed(fastest);  // after the drift of all, so that a stop leaves one time behind
                 balls[static_cast<Column>(static_cast<std::size_t>(Column::vx) + c)]);
       if (balls.has(Column::wx))
         std::copy(now.spin[c].begin(), now.spin[c].end(),

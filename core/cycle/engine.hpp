@@ -118,6 +118,8 @@ class Engine {
   MotionInput motion_input();
   Observation observation_;
   std::vector<const Process*> adders_, scalers_;
+  std::vector<MotionResult> motion_;  ///< of the last pass, by block
+  std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;
