@@ -63,6 +63,12 @@ std::unique_ptr<Catalogue> CommonFlags::catalogue() const {
   return out;
 }
 
+std::vector<std::string> installed_configs() {
+  const std::string data = data_folder();
+  if (data.empty() || !fs::is_directory(data + "/configs")) return {};
+  return {data + "/configs"};
+}
+
 void SceneFlags::declare(CLI::App& app, bool with_file) {
   if (with_file) app.add_option("SCENE", file, "the scene, a YAML file")->required()->type_name("");
   app.add_option("--set", set, "replace a value of the scene, as in --set vars.side=\"100 mm\"; may be repeated")
@@ -79,8 +85,7 @@ Scene SceneFlags::read(Catalogue& catalogue) const {
       throw Refusal(Exit::usage, "--set " + text + ": write it as --set key=value, as in --set vars.side=\"100 mm\"");
     options.set.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
-  if (const std::string data = data_folder(); !data.empty())
-    if (fs::is_directory(data + "/configs")) options.include_dirs.push_back(data + "/configs");
+  options.include_dirs = installed_configs();
   return read_scene(options, catalogue);
 }
 

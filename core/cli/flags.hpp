@@ -50,5 +50,7 @@ void declare_json(CLI::App& app, bool& json, const std::string& what);
 /// A folder with the data of the program (examples, configs): share/scree beside bin/ in the build tree as in an
 /// installation; "" when there is none.
 std::string data_folder();
+/// Where scenes find fragments and files besides their own folder.
+std::vector<std::string> installed_configs();
 
 }  // namespace scree::core

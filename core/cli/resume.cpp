@@ -29,6 +29,7 @@ Deed declare_resume(CLI::App& app) {
       throw Refusal(Exit::usage, "--from " + flags->from + ": resume goes on from 'latest' or 'previous'");
     RunOptions options = flags->run.options(flags->common);
     options.allow_plugin_change = flags->changed;
+    options.include_dirs = installed_configs();
     const auto catalogue = flags->common.catalogue();
     install_signal_handlers();
     return print_result(resume_run(flags->folder, *catalogue, options, flags->from == "previous"), flags->json);

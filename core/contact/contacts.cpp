@@ -9,17 +9,6 @@ namespace scree::core {
 
 namespace {
 
-struct Shifts {
-  double of[64][3];
-  explicit Shifts(const PeriodicCell& cell) {
-    for (int code = 0; code < 64; ++code)
-      for (int axis = 0; axis < 3; ++axis) {
-        const int image = (code >> (2 * axis)) & 3;
-        of[code][axis] = image == 1 ? cell.length(axis) : image == 2 ? -cell.length(axis) : 0.0;
-      }
-  }
-};
-
 void load_columns(const TouchList& list, uint32_t n, Scratch& s) {
   for (std::size_t w = 0; w < list.state.size(); ++w) {
     const double* column = list.state[w].data();
@@ -141,7 +130,7 @@ Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vec
 
 Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const PeriodicCell& cell,
                           const PassOptions& options, Team& team) {
-  const Shifts shifts(cell);
+  const ImageShifts shifts(cell);
   const double(*shift)[3] = cell.any() ? shifts.of : nullptr;
   if (scratch_.size() < team.size()) scratch_.resize(team.size());
   if (options.report)

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contact/run_law.hpp"
+#include "core/contact/wall_touches.hpp"
 
 namespace scree::core {
 
@@ -133,50 +134,62 @@ void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, c
   }
 }
 
+/// One touch of a candidate as a contact that could be; `t` is its index among the touches.
+void load_wall_contact(const BoundRule& rule, const Wall& wall, const BallView& view, uint32_t row,
+                       const WallTouches& touches, uint32_t t, uint32_t k, Scratch& s) {
+  s.nx[k] = touches.nx[t];
+  s.ny[k] = touches.ny[t];
+  s.nz[k] = touches.nz[t];
+  s.gap[k] = touches.distance[t] - view.radius[row];
+  s.r1[k] = view.radius[row];
+  s.r2[k] = 0;
+  s.mass[k] = 1.0 / view.inverse_mass[row];
+  s.row[k] = row;
+  for (uint32_t w = 0; w < rule.state_words(); ++w) s.state[w][k] = 0;
+  if (rule.varying.empty()) return;
+  Birth birth;
+  birth.row1 = row;
+  birth.wall = &wall;
+  birth.r1 = s.r1[k];
+  birth.mass = s.mass[k];
+  birth.x = view.x[row];
+  birth.y = view.y[row];
+  birth.z = view.z[row];
+  thread_local std::vector<double> words;
+  words = rule.words;
+  rule.vary(birth, words.data());
+  for (std::size_t v = 0; v < rule.varying.size(); ++v) s.property[v][k] = words[rule.varying[v]];
+}
+
 // A wall without walls' own motion: every candidate counts once with the normal it would have.
 void add_walls(Accumulator& sums, const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                Scratch& s, Tangents& t) {
   const BallView view(balls);
+  WallTouches touches;
+  std::vector<uint32_t> rows;
   for (const WallList& list : contacts.wall_lists()) {
     const BoundRule& rule = contacts.book.rules[list.rule];
     const Wall& wall = walls[list.wall];
-    for (uint32_t row : list.candidates) {
-      if (!sums.holds(row) || view.inverse_mass[row] == 0) continue;
-      const auto centre = wall.to_frame({view.x[row], view.y[row], view.z[row]});
-      const double reach = 4 * view.radius[row] + rule.reach;
-      uint32_t ball[8], patch[8];
-      double nx[8], ny[8], nz[8], distance[8];
-      const scree_touches touches{sizeof(scree_touches), 8, ball, patch, nx, ny, nz, distance};
-      const uint32_t found = std::min<uint32_t>(
-          8, wall.table->touch(wall.geometry.get(), 1, &centre[0], &centre[1], &centre[2], &reach, &touches));
-      for (uint32_t k = 0; k < found; ++k) {
-        if (distance[k] > 2 * view.radius[row] + rule.reach) continue;
-        const auto normal = wall.from_frame({nx[k], ny[k], nz[k]});
-        s.nx[0] = normal[0];
-        s.ny[0] = normal[1];
-        s.nz[0] = normal[2];
-        s.gap[0] = distance[k] - view.radius[row];
-        s.r1[0] = view.radius[row];
-        s.r2[0] = 0;
-        s.mass[0] = 1.0 / view.inverse_mass[row];
-        for (uint32_t w = 0; w < rule.state_words(); ++w) s.state[w][0] = 0;
-        if (!rule.varying.empty()) {
-          Birth birth;
-          birth.row1 = row;
-          birth.wall = &wall;
-          birth.r1 = s.r1[0];
-          birth.mass = s.mass[0];
-          birth.x = view.x[row];
-          birth.y = view.y[row];
-          birth.z = view.z[row];
-          std::vector<double> words = rule.words;
-          rule.vary(birth, words.data());
-          for (std::size_t v = 0; v < rule.varying.size(); ++v) s.property[v][0] = words[rule.varying[v]];
-        }
-        ask_law(rule, 1, s, t);
-        sums.contact({row, view.radius[row], 1.0}, Eigen::Vector3d(normal[0], normal[1], normal[2]), t, 0, s.mass[0]);
-      }
+    rows.clear();
+    for (uint32_t row : list.candidates)
+      if (sums.holds(row) && view.inverse_mass[row] > 0) rows.push_back(row);
+    if (rows.empty()) continue;
+    touches.find(wall, view, rows, 4, rule.reach);
+    uint32_t n = 0;
+    const auto flush = [&] {
+      if (n > 0) ask_law(rule, n, s, t);
+      for (uint32_t k = 0; k < n; ++k)
+        sums.contact({s.row[k], view.radius[s.row[k]], 1.0}, Eigen::Vector3d(s.nx[k], s.ny[k], s.nz[k]), t, k,
+                     s.mass[k]);
+      n = 0;
+    };
+    for (uint32_t touch : touches.order) {
+      const uint32_t row = rows[touches.ball[touch]];
+      if (touches.distance[touch] > 2 * view.radius[row] + rule.reach) continue;
+      load_wall_contact(rule, wall, view, row, touches, touch, n++, s);
+      if (n == Scratch::size) flush();
     }
+    flush();
   }
 }
 
@@ -197,12 +210,7 @@ StepBound step_bound(const Contacts& contacts, const Balls& balls, const std::ve
                      const PeriodicCell& cell, double local_damping) {
   StepBound bound;
   bound.term = "contacts";
-  double shifts[64][3];
-  for (int code = 0; code < 64; ++code)
-    for (int axis = 0; axis < 3; ++axis) {
-      const int image = (code >> (2 * axis)) & 3;
-      shifts[code][axis] = image == 1 ? cell.length(axis) : image == 2 ? -cell.length(axis) : 0.0;
-    }
+  const ImageShifts shifts(cell);
   const auto scratch = std::make_unique<Scratch>();
   const auto tangents = std::make_unique<Tangents>();
   // Rows in portions: the blocks of all balls at once would be the largest array of a run.
@@ -210,7 +218,7 @@ StepBound step_bound(const Contacts& contacts, const Balls& balls, const std::ve
   for (std::size_t first = 0; first < balls.size(); first += portion) {
     Accumulator sums(balls, first, std::min(balls.size(), first + portion));
     for (std::size_t rule = 0; rule < contacts.lists().size(); ++rule)
-      add_pairs(sums, contacts, rule, balls, cell.any() ? shifts : nullptr, *scratch, *tangents);
+      add_pairs(sums, contacts, rule, balls, cell.any() ? shifts.of : nullptr, *scratch, *tangents);
     add_walls(sums, contacts, balls, walls, *scratch, *tangents);
     sums.largest(bound);
   }

@@ -5,6 +5,7 @@
 
 #include "core/contact/run_law.hpp"
 #include "core/contact/slices.hpp"
+#include "core/contact/wall_touches.hpp"
 
 namespace scree::core {
 
@@ -16,69 +17,6 @@ V cross(const V& a, const V& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/// Touches of a set of rows, sorted by row and patch, in the scene's frame.
-struct Touches {
-  std::vector<uint32_t> ball, patch;
-  std::vector<double> nx, ny, nz, distance;
-  std::vector<uint32_t> order;
-  uint32_t count = 0;
-
-  void resize(std::size_t n) {
-    ball.resize(n);
-    patch.resize(n);
-    nx.resize(n);
-    ny.resize(n);
-    nz.resize(n);
-    distance.resize(n);
-  }
-};
-
-struct Centres {
-  std::vector<double> x, y, z, reach;
-};
-
-// Asks the wall; grows the buffers until all touches fit.
-void ask(const Wall& wall, const BallView& balls, const uint32_t* rows, std::size_t n, double margin, Touches& out) {
-  thread_local Centres centres;
-  centres.x.resize(n);
-  centres.y.resize(n);
-  centres.z.resize(n);
-  centres.reach.resize(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const uint32_t row = rows[k];
-    const V local = wall.to_frame({balls.x[row], balls.y[row], balls.z[row]});
-    centres.x[k] = local[0];
-    centres.y[k] = local[1];
-    centres.z[k] = local[2];
-    centres.reach[k] = balls.radius[row] + margin;
-  }
-  if (out.ball.size() < n + 64) out.resize(n + 64);
-  for (;;) {
-    const scree_touches touches{sizeof(scree_touches), static_cast<uint32_t>(out.ball.size()),
-                                out.ball.data(),       out.patch.data(),
-                                out.nx.data(),         out.ny.data(),
-                                out.nz.data(),         out.distance.data()};
-    out.count = wall.table->touch(wall.geometry.get(), static_cast<uint32_t>(n), centres.x.data(), centres.y.data(),
-                                  centres.z.data(), centres.reach.data(), &touches);
-    if (out.count <= out.ball.size()) break;
-    out.resize(out.count);
-  }
-  out.order.resize(out.count);
-  for (uint32_t k = 0; k < out.count; ++k) out.order[k] = k;
-  const auto before = [&](uint32_t a, uint32_t b) {
-    return out.ball[a] != out.ball[b] ? out.ball[a] < out.ball[b] : out.patch[a] < out.patch[b];
-  };
-  if (!std::is_sorted(out.order.begin(), out.order.end(), before))
-    std::sort(out.order.begin(), out.order.end(), before);
-  if (!wall.turned()) return;
-  for (uint32_t k = 0; k < out.count; ++k) {
-    const V n3 = wall.from_frame({out.nx[k], out.ny[k], out.nz[k]});
-    out.nx[k] = n3[0];
-    out.ny[k] = n3[1];
-    out.nz[k] = n3[2];
-  }
-}
 
 Birth birth_at_wall(const BallView& balls, const Wall& wall, uint32_t row, const V& normal, double distance) {
   Birth birth;
@@ -93,7 +31,7 @@ Birth birth_at_wall(const BallView& balls, const Wall& wall, uint32_t row, const
 }
 
 // Lines up what is remembered with the touches of now: both are sorted, so one merge does it.
-void carry_over(WallList& list, const Touches& touches, const WallPass& pass) {
+void carry_over(WallList& list, const WallTouches& touches, const WallPass& pass) {
   const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
   thread_local std::vector<WallSlot> slots;
   thread_local std::vector<double> state, property, all;
@@ -124,7 +62,8 @@ void carry_over(WallList& list, const Touches& touches, const WallPass& pass) {
 }
 
 // Geometry of slots [first, first + n): piece 1 is the ball, piece 2 the wall.
-bool geometry(WallList& list, const WallPass& pass, const Touches& touches, std::size_t first, uint32_t n, Scratch& s) {
+bool geometry(WallList& list, const WallPass& pass, const WallTouches& touches, std::size_t first, uint32_t n,
+              Scratch& s) {
   const BallView& b = *pass.balls;
   const Wall& wall = *pass.wall;
   const bool spin = b.wx != nullptr && !pass.rule->normal_only();
@@ -235,10 +174,10 @@ void follow_rows(WallList& list, const std::vector<uint32_t>& now) {
 
 std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, std::size_t first, std::size_t last,
                                       double margin) {
-  thread_local Touches touches;
+  thread_local WallTouches touches;
   std::vector<uint32_t> rows(last - first);
   for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = static_cast<uint32_t>(first + k);
-  ask(wall, balls, rows.data(), rows.size(), margin, touches);
+  touches.find(wall, balls, rows, 1, margin);
   std::vector<uint32_t> near;
   for (uint32_t k : touches.order) {
     const uint32_t row = rows[touches.ball[k]];
@@ -248,12 +187,10 @@ std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, s
 }
 
 int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
-  thread_local Touches touches;
+  thread_local WallTouches touches;
   list.force = list.moment = {};
   list.report.clear();
-  touches.count = 0;
-  if (!list.candidates.empty())
-    ask(*pass.wall, *pass.balls, list.candidates.data(), list.candidates.size(), pass.rule->reach, touches);
+  touches.find(*pass.wall, *pass.balls, list.candidates, 1, pass.rule->reach);
   carry_over(list, touches, pass);
   const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
   int64_t worst = -1;

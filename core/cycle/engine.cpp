@@ -108,10 +108,14 @@ void Engine::choose_step() {
                                      number(bound.step) + " s (ball " + std::to_string(bound.ball) + ", " + bound.term +
                                      "): lower 'timestep' to at most " + number(step.allowed()) +
                                      " s, leave it out for the automatic step, or say 'unsafe: true'");
-    // Without balls a stage may still bring some; `advance` refuses when none has.
     if (step.step() == 0 && balls.size() > 0) refuse_without_step();
   }
-  clock.change_step(step.step());
+  if (balls.size() > 0 || !step.automatic()) return clock.change_step(step.step());
+  follow_idle_step();
+}
+
+void Engine::follow_idle_step() {
+  if (balls.size() == 0 && step.automatic() && idle_step > 0) clock.change_step(idle_step);
 }
 
 double Engine::exact_travel() {
@@ -158,12 +162,12 @@ void Engine::forces() {
                           excess.plugin + "'); the step is " + number(clock.dt) + " s, the stable limit " +
                           number(step.bound().step) +
                           " s: use stiffer contacts, slower motion or a smaller 'timestep', or raise 'overlap_limit'",
-                      {excess.id1, excess.id2});
+                      {excess.id1, excess.id2}, NumericalStop::State::whole);
 }
 
 MotionInput Engine::motion_input() {
   return {&balls,      &contacts.slices(), &adders_,      &scalers_, contacts.isa,
-          clock.cycle, clock.time(),       clock.dt_back, clock.dt};
+          clock.cycle, clock.time(),       clock.dt_back, clock.dt,  sum_words(adders_) + sum_words(scalers_)};
 }
 
 void Engine::stop_not_finite() {
@@ -205,7 +209,7 @@ void Engine::check_speed(double fastest) {
                             number(speed * clock.dt / balls[Column::radius][row]) + " of its radius in one cycle (" +
                             number(speed) + " m/s with a step of " + number(clock.dt) +
                             " s), so it could pass through others unseen: lower 'timestep', or slow it down",
-                        {id});
+                        {id}, NumericalStop::State::whole);
   }
 }
 
@@ -241,26 +245,30 @@ void Engine::advance() {
   if (clock.dt == 0) refuse_without_step();
   const MotionInput input = motion_input();
   Slices& slices = contacts.slices();
-  std::vector<MotionResult> results(slices.blocks());
-  team.each_block(slices.blocks(), [&](std::size_t block) { results[block] = move_block(input, block); });
+  const std::size_t words = input.sum_words;
+  motion_.resize(slices.blocks());
+  block_sums_.assign(slices.blocks() * words, 0.0);
+  team.each_block(slices.blocks(), [&](std::size_t block) {
+    motion_[block] = move_block(input, block, block_sums_.data() + block * words);
+  });
   double fastest = 0;
   bool finite = true;
   for (Process& process : processes) process.sums.assign(process.table->sums, 0.0);
-  for (const MotionResult& result : results) {
+  const double* sums = block_sums_.data();
+  for (const MotionResult& result : motion_) {
     fastest = std::max(fastest, result.fastest);
     finite = finite && result.finite;
-    const double* sums = result.sums.data();
     for (const auto* order : {&adders_, &scalers_})
       for (const Process* process : *order)
         for (uint32_t k = 0; k < process->table->sums; ++k) const_cast<Process*>(process)->sums[k] += *sums++;
   }
   if (!finite) stop_not_finite();
-  check_speed(fastest);
   drift_walls();
   ball_travel_ += fastest * clock.dt;
   clock.dt_back = clock.dt_law = clock.dt;
   ++clock.cycle;
   forces_current_ = false;
+  check_speed(fastest);  // after the drift of all, so that a stop leaves one time behind
   run_model_processes();
 }
 

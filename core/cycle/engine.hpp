@@ -22,9 +22,12 @@ namespace scree::core {
 /// A run that went wrong at a known cycle: exit 5. `balls` are the ids to look at first.
 class NumericalStop : public Refusal {
  public:
-  NumericalStop(const std::string& message, std::vector<uint64_t> worst)
-      : Refusal(Exit::numerical, message), balls(std::move(worst)) {}
+  /// What the engine holds when it stops: all of one time, which can be saved, or a cycle that was left half way.
+  enum class State { whole, broken };
+  NumericalStop(const std::string& message, std::vector<uint64_t> worst, State left = State::broken)
+      : Refusal(Exit::numerical, message), balls(std::move(worst)), state(left) {}
   std::vector<uint64_t> balls;
+  State state;
 };
 
 /// Model time as a count: no rounding piles up while the step stays the same.
@@ -64,6 +67,7 @@ class Engine {
   double overlap_warning = 0.05;
   double wanted_skin = 0;      ///< m; 0: chosen from the radii
   bool unsafe = false;         ///< the user accepts a step above the bound
+  double idle_step = 0;        ///< s; what an automatic step is while there is no ball, where nothing limits it
   bool sums_wanted = false;    ///< forces() also sums contact force sizes (unbalanced ratio)
   bool report_wanted = false;  ///< forces() also keeps every contact's force
   std::function<void(const std::string&)> warn = [](const std::string&) {};
@@ -71,6 +75,8 @@ class Engine {
   /// Call after any edit of balls, walls, rules or processes: makes the columns exist that the scene needs, and chooses
   /// the step. Does not touch contacts' memory.
   void prepare();
+  /// Call after a change of `idle_step`.
+  void follow_idle_step();
   /// Detection when the skin is used up, then all contact laws. Does nothing when the forces of this time are there.
   void forces();
   /// Reads time n; forces() must have run. Never changes the trajectory.
@@ -112,6 +118,8 @@ class Engine {
   MotionInput motion_input();
   Observation observation_;
   std::vector<const Process*> adders_, scalers_;
+  std::vector<MotionResult> motion_;  ///< of the last pass, by block
+  std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/plugin/table_check.hpp"
+
 namespace scree::core {
 
 namespace {
@@ -110,13 +112,13 @@ void run_rows(const MotionInput& input, const Process& process, std::size_t firs
               double* sum) {
   Balls& balls = *input.balls;
   double inertia[SCREE_ROWS], fixed[SCREE_ROWS];
-  std::vector<double*> words;
-  words.reserve(16);
+  double* words[3 * most_needs];
+  std::size_t count = 0;
+  const auto give = [&](double* word) { words[count++] = word; };
   for (uint32_t k = 0; k < process.table->need_count; ++k) {
     const uint32_t column = process.table->needs[k].column;
     const auto three = [&](Column from) {
-      for (int c = 0; c < 3; ++c)
-        words.push_back(shifted(balls[static_cast<Column>(static_cast<int>(from) + c)], first));
+      for (int c = 0; c < 3; ++c) give(shifted(balls[static_cast<Column>(static_cast<int>(from) + c)], first));
     };
     const bool spin = balls.has(Column::wx);
     switch (column) {
@@ -130,42 +132,42 @@ void run_rows(const MotionInput& input, const Process& process, std::size_t firs
         three(Column::wx);
         break;
       case SCREE_FORCE:
-        for (auto& component : forces.force) words.push_back(component);
+        for (auto& component : forces.force) give(component);
         break;
       case SCREE_MOMENT:
-        for (auto& component : forces.moment) words.push_back(spin ? component : nullptr);
+        for (auto& component : forces.moment) give(spin ? component : nullptr);
         break;
       case SCREE_RADIUS:
-        words.push_back(balls[Column::radius] + first);
+        give(balls[Column::radius] + first);
         break;
       case SCREE_MASS:
-        words.push_back(balls[Column::mass] + first);
+        give(balls[Column::mass] + first);
         break;
       case SCREE_INERTIA: {
         const double *m = balls[Column::mass] + first, *r = balls[Column::radius] + first;
         for (std::size_t row = 0; row < n; ++row) inertia[row] = 0.4 * m[row] * r[row] * r[row];
-        words.push_back(inertia);
+        give(inertia);
         break;
       }
       default:
         for (std::size_t row = 0; row < n; ++row)
           fixed[row] = balls.fixed() != nullptr ? balls.fixed()[first + row] : 0;
-        words.push_back(fixed);
+        give(fixed);
     }
   }
   const scree_rows rows{
-      sizeof(scree_rows), static_cast<uint32_t>(n), first, input.cycle, input.time, input.dt, words.data(), sum};
+      sizeof(scree_rows), static_cast<uint32_t>(n), first, input.cycle, input.time, input.dt, words, sum};
   for (int isa = input.isa; isa >= 0; --isa)
     if (process.table->rows[isa] != nullptr) return process.table->rows[isa](process.object.get(), &rows);
 }
+
+}  // namespace
 
 std::size_t sum_words(const std::vector<const Process*>& processes) {
   std::size_t words = 0;
   for (const Process* process : processes) words += process->table->sums;
   return words;
 }
-
-}  // namespace
 
 void gather_forces(const MotionInput& input, std::size_t first, std::size_t n, RowForces& f, bool scale, double* sums) {
   Balls& balls = *input.balls;
@@ -198,11 +200,10 @@ void apply_scalers(const MotionInput& input, std::size_t first, std::size_t n, R
   }
 }
 
-MotionResult move_block(const MotionInput& input, std::size_t block) {
+MotionResult move_block(const MotionInput& input, std::size_t block, double* sums) {
   Balls& balls = *input.balls;
   input.slices->fold(block);
   MotionResult result;
-  result.sums.assign(sum_words(*input.adders) + sum_words(*input.scalers), 0.0);
   const bool spin = balls.has(Column::wx);
   const Kick kick = kicks[input.isa][spin][balls.fixed() != nullptr];
   const double half = 0.5 * (input.dt_back + input.dt);
@@ -211,7 +212,7 @@ MotionResult move_block(const MotionInput& input, std::size_t block) {
   const std::size_t begin = block * block_rows, end = begin + input.slices->block_size(block);
   for (std::size_t first = begin; first < end; first += SCREE_ROWS) {
     const std::size_t n = std::min<std::size_t>(SCREE_ROWS, end - first);
-    gather_forces(input, first, n, forces, true, result.sums.data());
+    gather_forces(input, first, n, forces, true, sums);
     Chunk chunk{};
     for (int c = 0; c < 3; ++c) {
       chunk.x[c] = balls[static_cast<Column>(static_cast<int>(Column::x) + c)] + first;

@@ -17,16 +17,20 @@ struct MotionInput {
   int isa = 0;
   uint64_t cycle = 0;
   double time = 0, dt_back = 0, dt = 0;  ///< s; dt_back is 0 after a start or an edit
+  std::size_t sum_words = 0;             ///< of the row processes, one after the other
 };
 
 /// What the guards and the next cycle need to know of a pass, by block.
 struct MotionResult {
   double fastest = 0;  ///< largest |v|, m/s
   bool finite = true;
-  std::vector<double> sums;  ///< of the row processes, one after the other
 };
 
-MotionResult move_block(const MotionInput& input, std::size_t block);
+/// Words of sums that all these processes have.
+std::size_t sum_words(const std::vector<const Process*>& processes);
+
+/// `sums`: input.sum_words numbers of this block, which are added to.
+MotionResult move_block(const MotionInput& input, std::size_t block, double* sums);
 
 /// Net forces of up to SCREE_ROWS rows in first-level cache, one array per component.
 struct RowForces {

@@ -149,7 +149,7 @@ void check_process(const scree_process& p, const Speaker& speaker) {
   check_size(p.struct_size, sizeof p, speaker);
   check_object(p.object, speaker);
   if (p.rows[0] == nullptr && p.step == nullptr) speaker.refuse("it has neither 'rows' nor 'step', so it does nothing");
-  if (p.need_count > 64 || (p.need_count > 0 && p.needs == nullptr))
+  if (p.need_count > most_needs || (p.need_count > 0 && p.needs == nullptr))
     speaker.refuse("its list of needed columns is not sound");
   for (uint32_t k = 0; k < p.need_count; ++k)
     if (p.needs[k].column >= SCREE_COLUMN_COUNT) speaker.refuse("it needs a column that this scree does not know");

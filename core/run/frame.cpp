@@ -9,43 +9,15 @@ namespace {
 using V = std::array<double, 3>;
 
 struct Box {
-  V low{-1, -1, -1}, high{1, 1, 1};
+  V low{}, high{};
 };
 
-/// The box that unbounded walls are cut to: that of the balls and of a periodic cell, and a tenth more.
-Box shown(const Engine& engine) {
-  const Balls& balls = engine.balls;
-  const PeriodicCell& cell = engine.cell;
-  if (balls.size() == 0 && !cell.any()) return {};
-  Box box;
-  double longest = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const double* at = balls[static_cast<Column>(static_cast<std::size_t>(Column::x) + c)];
-    const double* radius = balls[Column::radius];
-    bool any = cell.periodic[c];
-    double low = any ? cell.low[c] : 0.0, high = any ? cell.high[c] : 0.0;
-    for (std::size_t row = 0; row < balls.size(); ++row) {
-      low = any ? std::min(low, at[row] - radius[row]) : at[row] - radius[row];
-      high = any ? std::max(high, at[row] + radius[row]) : at[row] + radius[row];
-      any = true;
-    }
-    box.low[c] = low;
-    box.high[c] = high;
-    longest = std::max(longest, high - low);
-  }
-  for (std::size_t c = 0; c < 3; ++c) {
-    box.low[c] -= 0.1 * longest;
-    box.high[c] += 0.1 * longest;
-  }
-  return box;
-}
-
 /// The same box, or one around it, in the wall's frame.
-Box in_frame(const Wall& wall, const Box& box) {
+Box in_frame(const Wall& wall, const ShownBox& box) {
   Box out;
   for (unsigned corner = 0; corner < 8; ++corner) {
     V point{};
-    for (std::size_t c = 0; c < 3; ++c) point[c] = (corner >> c & 1u) != 0 ? box.high[c] : box.low[c];
+    for (std::size_t c = 0; c < 3; ++c) point[c] = (corner >> c & 1u) != 0 ? box.high()[c] : box.low()[c];
     point = wall.to_frame(point);
     for (std::size_t c = 0; c < 3; ++c) {
       out.low[c] = corner == 0 ? point[c] : std::min(out.low[c], point[c]);
@@ -61,7 +33,7 @@ V to_scene(const Wall& wall, const double* corner) {
   return {turned[0] + wall.centre[0], turned[1] + wall.centre[1], turned[2] + wall.centre[2]};
 }
 
-std::vector<std::vector<double>> outline(const Wall& wall, const Box& box) {
+std::vector<std::vector<double>> outline(const Wall& wall, const ShownBox& box) {
   struct Sink {
     const Wall* wall;
     std::vector<std::vector<double>> polygons;
@@ -91,7 +63,8 @@ scree_array Frame::array(const char* name, const char* unit, uint32_t components
   return {name, unit, components, 0, pointers.data()};
 }
 
-Frame::Frame(Simulation& simulation, Quantities& quantities, const FrameContent& content, uint32_t index) {
+Frame::Frame(Simulation& simulation, Quantities& quantities, const FrameContent& content, uint32_t index,
+             const ShownBox& box) {
   frame_.struct_size = sizeof frame_;
   frame_.index = index;
   frame_.cycle = simulation.engine.clock.cycle;
@@ -99,7 +72,7 @@ Frame::Frame(Simulation& simulation, Quantities& quantities, const FrameContent&
   if ((content.wants & SCREE_WANTS_BALLS) != 0) add_balls(simulation, quantities.instant(), content.fields);
   if ((content.wants & SCREE_WANTS_CONTACTS) != 0 && !content.fields.contacts.empty())
     add_contacts(quantities.instant(), content.fields);
-  if ((content.wants & SCREE_WANTS_WALLS) != 0) add_walls(simulation.engine);
+  if ((content.wants & SCREE_WANTS_WALLS) != 0) add_walls(simulation.engine, box);
   if ((content.wants & SCREE_WANTS_QUANTITIES) != 0) add_quantities(quantities, content);
 }
 
@@ -147,8 +120,7 @@ void Frame::add_contacts(Instant& now, const FieldChoice& fields) {
   frame_.contact_arrays = contact_arrays_.data();
 }
 
-void Frame::add_walls(const Engine& engine) {
-  const Box box = shown(engine);
+void Frame::add_walls(const Engine& engine, const ShownBox& box) {
   for (const Wall& wall : engine.walls) {
     Picture& picture = pictures_.emplace_back();
     picture.corners = outline(wall, box);

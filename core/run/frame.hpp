@@ -8,6 +8,7 @@
 
 #include "core/run/fields.hpp"
 #include "core/run/quantities.hpp"
+#include "core/run/shown_box.hpp"
 
 namespace scree::core {
 
@@ -21,7 +22,9 @@ struct FrameContent {
 /// A frame of time n as a writer sees it. Owns all that `abi` points to. Building it changes nothing of the run.
 class Frame {
  public:
-  Frame(Simulation& simulation, Quantities& quantities, const FrameContent& content, uint32_t index);
+  /// Unbounded walls are cut to `box`.
+  Frame(Simulation& simulation, Quantities& quantities, const FrameContent& content, uint32_t index,
+        const ShownBox& box);
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
   const scree_frame& abi() const { return frame_; }
@@ -30,7 +33,7 @@ class Frame {
   using Values = std::vector<double>;
   void add_balls(Simulation& simulation, Instant& now, const FieldChoice& fields);
   void add_contacts(Instant& now, const FieldChoice& fields);
-  void add_walls(const Engine& engine);
+  void add_walls(const Engine& engine, const ShownBox& box);
   void add_quantities(Quantities& quantities, const FrameContent& content);
   /// One array per component, kept as long as the frame.
   template <class Read>

@@ -15,6 +15,7 @@
 #include "core/base/error.hpp"
 #include "core/run/checkpoint_files.hpp"
 #include "core/run/summary.hpp"
+#include "core/scene/scene.hpp"
 
 namespace scree::core {
 
@@ -159,6 +160,7 @@ OutputFolder OutputFolder::resume(const std::string& given) {
     throw Refusal(Exit::io, path + ": has no checkpoint to resume from; run the scene again with `scree run`");
   checkpoints.clean();
   ::unlinkat(fd.get(), "summary.json", 0);
+  ::unlinkat(fd.get(), (std::string(stopped_state) + ".scree").c_str(), 0);
   return OutputFolder(path, "", std::move(fd), std::move(lock));
 }
 

@@ -69,7 +69,8 @@ void Recorder::write() {
   const Clock& clock = simulation_.engine.clock;
   if (!error_.empty() || clock.cycle == last_cycle_) return;
   open();
-  const Frame frame(simulation_, quantities_, content_, static_cast<uint32_t>(frames_));
+  if ((content_.wants & SCREE_WANTS_WALLS) != 0) box_.follow(simulation_.engine);
+  const Frame frame(simulation_, quantities_, content_, static_cast<uint32_t>(frames_), box_);
   if (table_.frame(writer_.get(), &frame.abi(), &abi_) != 0)
     return fail("could not write its frame of cycle " + std::to_string(clock.cycle));
   ++frames_;
@@ -99,6 +100,7 @@ void Recorder::save(ArchiveWriter& archive, const std::string& prefix) const {
       throw Refusal(Exit::plugin, "record '" + record_.name + "': the writer could not save its state");
   }
   archive.put(prefix + "/writer", bytes);
+  archive.put(prefix + "/box", box_.saved());
 }
 
 void Recorder::load(const ArchiveReader& archive, const std::string& prefix) {
@@ -106,6 +108,7 @@ void Recorder::load(const ArchiveReader& archive, const std::string& prefix) {
   frames_ = counters[0];
   last_cycle_ = counters[1];
   passed_ = counters[2];
+  box_.restore(archive.get<double>(prefix + "/box"));
   const std::vector<uint8_t> bytes = archive.get<uint8_t>(prefix + "/writer");
   open();
   if (table_.load != nullptr && table_.load(writer_.get(), bytes.data(), bytes.size()) != 0)

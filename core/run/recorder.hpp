@@ -52,6 +52,7 @@ class Recorder {
   std::shared_ptr<void> writer_;
   scree_files abi_;
   FrameContent content_;
+  ShownBox box_;
   uint64_t frames_ = 0, last_cycle_ = never;
   uint64_t passed_ = 0;  ///< whole intervals of time gone by at the last frame
   bool open_ = false;

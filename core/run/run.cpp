@@ -8,6 +8,7 @@
 #include "core/run/session.hpp"
 #include "core/run/signals.hpp"
 #include "core/run/state.hpp"
+#include "core/run/target_check.hpp"
 
 namespace scree::core {
 
@@ -61,6 +62,7 @@ std::unique_ptr<Simulation> begin_scene(Scene scene, Catalogue& catalogue, const
   } else {
     load_specimen(*simulation, ArchiveReader(state));
   }
+  targets_exist(*simulation);
   return simulation;
 }
 
@@ -86,7 +88,7 @@ RunResult resume_run(const std::string& path, Catalogue& catalogue, const RunOpt
   OutputFolder folder = OutputFolder::resume(path);
   const CheckpointFiles checkpoints(path);
   const ArchiveReader archive = previous ? checkpoints.open_previous() : checkpoints.open_latest();
-  Scene scene = saved_scene(archive, catalogue, options.allow_plugin_change);
+  Scene scene = saved_scene(archive, catalogue, options.allow_plugin_change, options.include_dirs);
   auto simulation = make(std::move(scene), catalogue, options);
   load_state(*simulation, archive);
   open_log(folder, simulation->scene);

@@ -1,5 +1,6 @@
 #include "core/run/session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/log.hpp"
@@ -81,6 +82,14 @@ bool Session::wants_to_stop() {
   return false;
 }
 
+// Without a ball only the clock and the walls move, exactly for any step: it follows from what the scene wants to see.
+double Session::idle_step(const RunAction& action) const {
+  double step = action.length.time ? *action.length.time / 100 : 1e-3;
+  for (const Record& record : simulation_->scene.record)
+    if (record.every.time) step = std::min(step, *record.every.time);
+  return step;
+}
+
 void Session::begin_action(const Stage& stage, const RunAction& action) {
   Position& position = simulation_->position;
   const Clock& clock = simulation_->engine.clock;
@@ -90,6 +99,8 @@ void Session::begin_action(const Stage& stage, const RunAction& action) {
     position.start_time = clock.time();
     position.extreme.clear();
   }
+  simulation_->engine.idle_step = idle_step(action);
+  simulation_->engine.follow_idle_step();
   std::optional<double> duration;
   if (action.length.time) duration = position.start_time + *action.length.time - clock.time();
   std::optional<uint64_t> cycles;
@@ -257,6 +268,7 @@ RunResult Session::run() {
     ended_ = stop.code();
     message_ = stop.what();
     write_failure(stop);
+    save_stopped(stop);
     for (const auto& recorder : recorders_) recorder->close();
   } catch (const Refusal& refusal) {
     ended_ = refusal.code();

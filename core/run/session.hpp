@@ -33,6 +33,7 @@ class Session {
   Ending act(const Stage& stage, const Action& action);
   Ending run_action(const Stage& stage, const RunAction& action);
   void begin_action(const Stage& stage, const RunAction& action);
+  double idle_step(const RunAction& action) const;
   bool length_reached(const RunAction& action) const;
   bool wants_to_stop();
   /// Completes the present time with all that is due, and writes it.
@@ -44,6 +45,7 @@ class Session {
   void save_named(const SaveAction& action);
   void report_overlaps();
   void write_failure(const NumericalStop& stop);
+  void save_stopped(const NumericalStop& stop);
   Summary summary() const;
   double seconds() const;
 

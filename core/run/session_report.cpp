@@ -4,6 +4,7 @@
 #include "core/base/log.hpp"
 #include "core/run/explain.hpp"
 #include "core/run/session.hpp"
+#include "core/run/state.hpp"
 
 // What a session leaves behind beside its records: the summary, and the worst balls of a run that went wrong.
 
@@ -23,6 +24,27 @@ std::optional<Summary::Error> measured_error(const std::vector<ExpectationResult
                            "largest difference among expectations, relative to the reference: " + result.text};
   }
   return error;
+}
+
+bool finite(const double* values, std::size_t count) {
+  return std::all_of(values, values + count, [](double value) { return std::isfinite(value); });
+}
+
+// Everything that a saved state holds of the motion. Forces may be there although another ball's are not numbers.
+bool all_finite(const Engine& engine) {
+  const Balls& balls = engine.balls;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(Column::count); ++c)
+    if (balls.has(static_cast<Column>(c)) && !finite(balls[static_cast<Column>(c)], balls.size())) return false;
+  for (const Wall& wall : engine.walls)
+    if (!finite(wall.centre.data(), 3) || !finite(wall.force.data(), 3)) return false;
+  for (const TouchList& list : engine.contacts.lists())
+    for (const Array<double>& word : list.state)
+      if (!finite(word.data(), word.size())) return false;
+  for (const WallList& list : engine.contacts.wall_lists())
+    if (!finite(list.state.data(), list.state.size())) return false;
+  if (!engine.forces_current()) return true;
+  const std::vector<double> forces = engine.contacts.slices().save();
+  return finite(forces.data(), forces.size());
 }
 
 }  // namespace
@@ -97,7 +119,25 @@ void Session::write_failure(const NumericalStop& stop) {
   }
   if (!folder_.files().append("failure.csv", text.data(), text.size())) io_failed_ = true;
   message_ += "; see " + folder_.file("failure.csv");
-  if (checkpoints_.any()) message_ += "; last good checkpoint: " + checkpoints_.latest;
+}
+
+// A state to look at and to branch from; `resume` goes on from the last good checkpoint, which is left as it is.
+void Session::save_stopped(const NumericalStop& stop) {
+  if (stop.state == NumericalStop::State::whole && all_finite(simulation_->engine)) {
+    const std::string name = folder_.file(stopped_state), path = name + ".scree";
+    ArchiveWriter archive(path);
+    save_state(*simulation_, archive);
+    if (archive.commit()) {
+      message_ += "; the state is in " + path + " (another scene begins from it with 'start: {state: " + name + "}')";
+    } else {
+      log::warning("{}", archive.error());
+      io_failed_ = true;
+    }
+  } else {
+    message_ += "; the broken state is not saved";
+  }
+  message_ +=
+      checkpoints_.any() ? "; last good checkpoint: " + checkpoints_.latest : "; no checkpoint was saved before";
 }
 
 }  // namespace scree::core

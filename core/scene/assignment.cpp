@@ -96,9 +96,10 @@ class Assignment {
     action_.key = parts_[3];
     Wanted wanted{action_.key, ""};
     wanted.infinity = true;
-    const auto value = read_plain(node_, wanted, context_);
-    if (!value) return std::nullopt;
-    action_.setting = bare_setting(action_.key, node_.place(), {*value});
+    const auto number = read_number(node_, wanted, context_);
+    if (!number) return std::nullopt;
+    action_.unit = number->unit;
+    action_.setting = bare_setting(action_.key, node_.place(), {number->value});
     return action_;
   }
 

@@ -40,7 +40,9 @@ class Checker {
     check_empty();
     rules_know_their_names();
     pairs_have_rules(live_, open_, context_);
+    rules_in_use(live_, open_, used_rules_);
     for (Stage& stage : scene_.stages) visit(stage);
+    warn_shadowed();
     check_quantities();
     duplicates(scene_.stages, "stage");
     duplicates(scene_.record, "record");
@@ -133,10 +135,14 @@ class Checker {
   void apply(const AddAction& more, const Place&) {
     for (const WallUse& wall : more.walls) add(wall);
     for (const BallSet& set : more.balls) add(set);
+    const std::size_t before = live_.rules.size();
     for (const Rule& rule : more.contacts) add(rule);
+    // An added rule goes before the earlier ones, as in the run.
+    std::rotate(live_.rules.begin(), live_.rules.begin() + static_cast<std::ptrdiff_t>(before), live_.rules.end());
     for (const ProcessUse& process : more.processes) insert_named(live_.processes, process, "process", context_);
     rules_know_their_names();
     pairs_have_rules(live_, open_, context_);
+    rules_in_use(live_, open_, used_rules_);
   }
 
   void apply(const DeleteAction& gone, const Place&) {
@@ -155,6 +161,7 @@ class Checker {
       live_.rules.erase(there);
       rule_places_.erase(name);
       pairs_have_rules(live_, open_, context_);
+      rules_in_use(live_, open_, used_rules_);
     }
   }
 
@@ -186,14 +193,15 @@ class Checker {
   }
 
   void missing(const std::string& what, const Name& name, const std::vector<std::string>& candidates) {
-    if (open_ || name.text.empty()) return;
+    // A saved state brings balls; walls, rules and processes are this scene's own.
+    if ((open_ && what == "ball set") || name.text.empty()) return;
     const bool gone = ever_walls_.contains(name.text) || ever_balls_.contains(set_of(name.text));
     error(name.place, "no " + what + " '" + name.text + "' at this point of the scene" +
                           (gone ? "; it was deleted before" : "") + suggestion(name.text, candidates));
   }
 
   bool wants_wall(const Name& name) {
-    const bool there = live_.walls.contains(name.text) || name.text == "walls";
+    const bool there = live_.walls.contains(name.text);
     if (!there) missing("wall", name, names_of(live_.walls));
     return there;
   }
@@ -251,6 +259,19 @@ class Checker {
     }
   }
 
+  /// A rule that waits for what a stage deletes or adds is in use; one that no pair ever reaches is a mistake.
+  void warn_shadowed() {
+    for (const auto& [rule, use] : used_rules_) {
+      if (use.reached || use.before.empty() || context_.rules_doubtful) continue;
+      std::string before;
+      for (const Rule* earlier : use.before) before += (before.empty() ? "'" : ", '") + earlier->name + "'";
+      context_.report.warn(rule->place, "rule '" + rule->name + "' is never used: " + before +
+                                            (use.before.size() == 1 ? " comes first and fits" : " come first and fit") +
+                                            " all its pairs; put it before " +
+                                            (use.before.size() == 1 ? "it" : "them") + ", or delete it");
+    }
+  }
+
   template <class Entries>
   void duplicates(const Entries& entries, const std::string& what) {
     std::map<std::string, Place> seen;
@@ -267,6 +288,7 @@ class Checker {
   const bool open_;  ///< begins from a saved state, whose names are not known here
   Live live_;
   std::vector<const Rule*> new_rules_;
+  RuleUses used_rules_;
   std::map<std::string, Place> rule_places_;
   std::set<std::string> ever_walls_, ever_balls_, saved_;
 };

@@ -185,6 +185,53 @@ std::vector<Rule*> all_rules(Scene& scene, AllPieces& pieces) {
   return rules;
 }
 
+/// The pieces that a side of a rule names, sub-groups as they stand.
+std::vector<Piece> named_on(const std::vector<std::string>& side, const Live& live) {
+  std::vector<Piece> out;
+  for (const std::string& name : side) {
+    if (name == "balls")
+      for (const auto& [set, use] : live.balls) out.push_back({set, false});
+    else if (name == "walls")
+      for (const auto& [wall, use] : live.walls) out.push_back({wall, true});
+    else if (live.walls.contains(name) || live.balls.contains(set_of(name)))
+      out.push_back({name, live.walls.contains(name)});
+  }
+  return out;
+}
+
+/// Is the whole piece on this side? A set covers its sub-groups.
+bool holds(const std::vector<std::string>& side, const Piece& piece) {
+  return fit(side, piece) == Fit::whole ||
+         (!piece.wall && std::find(side.begin(), side.end(), set_of(piece.name)) != side.end());
+}
+
+bool takes(const Rule& rule, const Piece& first, const Piece& second) {
+  const auto& [one, other] = rule.between;
+  return (holds(one, first) && holds(other, second)) || (holds(one, second) && holds(other, first));
+}
+
+/// Which rule takes each pair that rule number `index` names.
+void look_at_use(const Live& live, std::size_t index, RuleUse& use) {
+  const auto& [one, other] = live.rules[index]->between;
+  const std::vector<Piece> firsts = named_on(one, live), seconds = named_on(other, live);
+  constexpr size_t most_looks = 1000000;  // beyond this only a hostile scene goes
+  if (firsts.size() * seconds.size() * (index + 1) > most_looks) {
+    use.reached = true;
+    return;
+  }
+  for (const Piece& first : firsts) {
+    for (const Piece& second : seconds) {
+      if (first.wall && second.wall) continue;
+      const auto end = live.rules.begin() + static_cast<std::ptrdiff_t>(index);
+      const auto earlier =
+          std::find_if(live.rules.begin(), end, [&](const Rule* rule) { return takes(*rule, first, second); });
+      use.reached = use.reached || earlier == end;
+      if (earlier != end && std::find(use.before.begin(), use.before.end(), *earlier) == use.before.end())
+        use.before.push_back(*earlier);
+    }
+  }
+}
+
 /// A property of a piece must belong to a law that the piece meets, in its unit and range.
 void check_piece(const std::string& name, const std::vector<PieceProperty>& properties,
                  const std::vector<const Component*>& laws, Context& context) {
@@ -259,6 +306,16 @@ void pairs_have_rules(const Live& live, bool open, Context& context) {
   warn_untouched(live, touching, context);
 }
 
+void rules_in_use(const Live& live, bool open, RuleUses& uses) {
+  if (open) return;
+  for (std::size_t k = 0; k < live.rules.size(); ++k) {
+    const Rule* rule = live.rules[k];
+    auto there = std::find_if(uses.begin(), uses.end(), [&](const auto& entry) { return entry.first == rule; });
+    if (there == uses.end()) there = uses.insert(uses.end(), {rule, {}});
+    if (!there->second.reached) look_at_use(live, k, there->second);
+  }
+}
+
 void pieces_meet_laws(Scene& scene, bool open, Context& context) {
   AllPieces pieces;
   const std::vector<Rule*> rules = all_rules(scene, pieces);
@@ -273,6 +330,16 @@ void pieces_meet_laws(Scene& scene, bool open, Context& context) {
   if (open || !all_opened) return;
   for (const BallSet* set : pieces.balls) check_piece(set->name, set->contact, laws[&set->contact], context);
   for (const WallUse* wall : pieces.walls) check_piece(wall->name, wall->contact, laws[&wall->contact], context);
+  for (const Stage& stage : scene.stages)
+    for (const Action& action : stage.actions) {
+      const auto* set = std::get_if<SetAction>(&action.what);
+      if (set == nullptr || set->target != SetAction::Target::wall_contact) continue;
+      std::vector<const Component*> met;
+      for (const WallUse* wall : pieces.walls)
+        if (wall->name == set->name) met.insert(met.end(), laws[&wall->contact].begin(), laws[&wall->contact].end());
+      check_piece(set->name, {{set->key, set->setting.value.numbers.at(0), set->unit, nullptr, action.place}}, met,
+                  context);
+    }
 }
 
 }  // namespace scree::core

@@ -22,6 +22,16 @@ std::string set_of(const std::string& group);
 /// for the pairs of its set; what it leaves open is found at set-up.
 void pairs_have_rules(const Live& live, bool open, Context& context);
 
+/// Whether any pair reaches a rule, and the earlier ones that take its pairs otherwise.
+struct RuleUse {
+  bool reached = false;
+  std::vector<const Rule*> before;
+};
+using RuleUses = std::vector<std::pair<const Rule*, RuleUse>>;
+/// Looks at the rules as they stand now and adds what it finds; a rule counts as reached once it ever was. Where pieces
+/// are not known (`open`), nothing is said.
+void rules_in_use(const Live& live, bool open, RuleUses& uses);
+
 /// Reports properties that neither a rule nor its pieces give, and those of pieces that no law knows.
 void pieces_meet_laws(Scene& scene, bool open, Context& context);
 

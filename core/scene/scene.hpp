@@ -128,6 +128,7 @@ struct SetAction {
   enum class Target { rule, wall, wall_contact, balls, process, timestep } target = Target::rule;
   std::string name;  ///< of the rule, wall, process, ball set or sub-group
   std::string key;   ///< property; walls: velocity, spin, position; balls: velocity, spin
+  std::string unit;  ///< wall_contact: as for PieceProperty
   Setting setting;   ///< of the component (rule, process), or a bare value; timestep 0: automatic again
 };
 struct DeleteAction {
@@ -151,6 +152,8 @@ struct RunAction {
   Span length;               ///< empty: no limit (only with `until`)
   std::vector<Until> until;  ///< any of them ends the run
 };
+/// What a numerical stop calls the state it saves; no `save` may have that name.
+inline constexpr const char* stopped_state = "stopped";
 struct SaveAction {
   Name name;
 };

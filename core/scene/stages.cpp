@@ -223,6 +223,9 @@ std::optional<Action> read_action(const Key& key, const Node& node, Context& con
   } else if (key.text == "save") {
     const auto name = read_word(node, "save", context);
     if (!name || !check_file_name(*name, node.place(), "saved state", context)) return std::nullopt;
+    if (*name == stopped_state)
+      context.report.error(node.place(),
+                           "'" + *name + "' is the state that a numerical stop saves: choose another name");
     action.what = SaveAction{{*name, node.place()}};
   } else {
     context.report.error(action.place, "unknown action '" + key.text.substr(0, 60) + "'" +

@@ -20,4 +20,17 @@ struct PeriodicCell {
   }
 };
 
+/// What is added to the higher row's position for each image code of a pair: two bits per axis, 0 none, 1 one edge up,
+/// 2 one edge down, m.
+struct ImageShifts {
+  double of[64][3];
+  explicit ImageShifts(const PeriodicCell& cell) {
+    for (int code = 0; code < 64; ++code)
+      for (int axis = 0; axis < 3; ++axis) {
+        const int image = (code >> (2 * axis)) & 3;
+        of[code][axis] = image == 1 ? cell.length(axis) : image == 2 ? -cell.length(axis) : 0.0;
+      }
+  }
+};
+
 }  // namespace scree::core

@@ -185,3 +185,36 @@ TEST_CASE("a run that is cut short by -n or --stage is not judged and goes on") 
   REQUIRE(support::scree({"resume", "staged"}, job.folder.path()).code == 0);
   CHECK(read_text(job.folder / "staged/history.csv") == undisturbed().history);
 }
+
+TEST_CASE("a run with fragments and files of its own folder resumes from any working directory") {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "scenes/parts");
+  std::filesystem::create_directories(folder / "elsewhere");
+  write_text(folder / "scenes/parts/floor.yaml",
+             "walls: {floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}}\n"
+             "contacts: [{name: all, between: [balls, [balls, walls]], model: linear, kn: 1e4, ks: 0}]\n");
+  write_text(folder / "scenes/parts/more.yaml", "- {cycle: 40}\n");
+  write_text(folder / "scenes/first.csv", "x,y,z,radius\n0,0,0.0102,0.01\n");
+  write_text(folder / "scenes/later.csv", "x,y,z,radius\n0.1,0,0.0103,0.01\n");
+  write_text(folder / "scenes/job.yaml",
+             "scree: 1\ninclude: parts/floor.yaml\n"
+             "balls: {first: {generator: file, path: first.csv, density: 2600, velocity: [0, 0, -1]}}\n"
+             "stages:\n  - go: [cycle: 40, add: {balls: {later: {generator: file, path: later.csv, density: 2600}}},\n"
+             "         include: parts/more.yaml]\n"
+             "record: {history: {writer: csv, every: 5 cycles, quantities: [kinetic_energy]}}\n");
+  const ProgramEnd whole = support::scree({"run", "job.yaml"}, folder / "scenes");
+  INFO(whole.err);
+  REQUIRE(whole.code == 0);
+  REQUIRE(support::scree({"run", "scenes/job.yaml", "-n", "20", "-o", "scenes/cut.out"}, folder.path()).code == 0);
+  // All that `resume` needs of the fragments is in the checkpoint.
+  std::filesystem::remove_all(folder / "scenes/parts");
+  const ProgramEnd end = support::scree({"resume", "../scenes/cut.out"}, folder / "elsewhere");
+  INFO(end.err);
+  CHECK(end.code == 0);
+  const auto result = [&](const std::string& name) {
+    return nlohmann::json::parse(read_text(folder / ("scenes/" + name + ".out/summary.json")));
+  };
+  CHECK(result("job").at("balls") == 2);
+  CHECK(result("cut").at("state_hash") == result("job").at("state_hash"));
+  CHECK(read_text(folder / "scenes/cut.out/history.csv") == read_text(folder / "scenes/job.out/history.csv"));
+}

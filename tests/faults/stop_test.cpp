@@ -64,6 +64,87 @@ TEST_CASE("a stop names the last good checkpoint") {
   CHECK(std::filesystem::exists(folder / "scene.out/before.scree"));
 }
 
+namespace {
+
+/// The N of "cycle N:".
+uint64_t cycle_of(const std::string& message) {
+  const std::size_t at = message.find("cycle ");
+  return at == std::string::npos ? 0 : std::stoull(message.substr(at + 6));
+}
+
+/// Begins from the state of the stop in `folder` without a limit on overlaps.
+support::ProgramEnd branch(const TemporaryFolder& folder, const std::string& stages) {
+  write_text(folder / "branch.yaml",
+             "scree: 1\nstart: {state: scene.out/stopped}\noverlap_limit: 10\ntimestep: 1e-7\n"
+             "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\n"
+             "contacts:\n  - {name: ground, between: [balls, [balls, floor]], model: linear, kn: 1e5, ks: 1e5, fric: "
+             "0.5}\nrecord:\n  now: {writer: csv, every: 1 cycles, quantities: [cycle, "
+             "balls.1.position.z]}\nstages:\n  - go: [" +
+                 stages + "]\n");
+  return support::scree({"run", "branch.yaml", "--no-color"}, folder.path());
+}
+
+}  // namespace
+
+TEST_CASE("a stop saves the state of its cycle, which another scene can begin from") {
+  const TemporaryFolder folder;
+  const std::string path = folder / "scene.out/stopped.scree";
+  const support::ProgramEnd end = run(folder, shot("-25", "cycle: 100000", "timestep: 2e-5\n"));
+  INFO(end.err);
+  CHECK(end.code == 5);
+  CHECK(has(end.err, "stopped.scree"));
+  CHECK(has(end.err, "no checkpoint was saved before"));
+  REQUIRE(std::filesystem::exists(path));
+  const support::ProgramEnd looked = branch(folder, "cycle: 1000");
+  INFO(looked.err);
+  CHECK(looked.code == 0);
+  CHECK(nlohmann::json::parse(read_text(folder / "branch.out/summary.json")).at("cycles") == cycle_of(end.err) + 1000);
+  // Its first row is of that cycle, and has ball 1 where failure.csv has it.
+  const std::string rows = read_text(folder / "branch.out/now.csv");
+  const std::string failure = read_text(folder / "scene.out/failure.csv");
+  const std::string row = "\n" + std::to_string(cycle_of(end.err)) + ",";
+  const std::size_t at = rows.find(row);
+  INFO(rows.substr(0, 400) << failure);
+  REQUIRE(at != std::string::npos);
+  const std::size_t line_end = rows.find('\n', at + 1), comma = rows.rfind(',', line_end);
+  const std::string z = rows.substr(comma + 1, line_end - comma - 1);
+  CHECK(z.size() > 3);
+  CHECK(has(failure, "," + z + ","));
+}
+
+TEST_CASE("a stop after a drift saves the whole of the new time") {
+  const TemporaryFolder folder;
+  // 0.5 m from the floor and from each other: nothing touches before the ball is too fast for the step.
+  const support::ProgramEnd end = run(folder, shot("-600", "cycle: 100000", "timestep: 2e-5\noverlap_limit: 1e9\n"));
+  INFO(end.err);
+  CHECK(end.code == 5);
+  CHECK(has(end.err, "of its radius in one cycle"));
+  REQUIRE(std::filesystem::exists(folder / "scene.out/stopped.scree"));
+  CHECK(summary(folder).at("cycles") == cycle_of(end.err));
+  const support::ProgramEnd looked = branch(folder, "cycle: 10");
+  INFO(looked.err);
+  CHECK(looked.code == 0);
+  CHECK(nlohmann::json::parse(read_text(folder / "branch.out/summary.json")).at("cycles") == cycle_of(end.err) + 10);
+}
+
+TEST_CASE("a state that is not finite is not saved, and the checkpoint before it stays") {
+  // 1e308 N on a ball of 1e-2 kg is finite; what it does to the velocity is not.
+  const TemporaryFolder folder;
+  write_text(folder / "scene.yaml",
+             shot("-1", "cycle: 20, cycle: 20, apply: {balls: sand, force: [1e308, 1e308, 0]}, cycle: 100"));
+  REQUIRE(support::scree({"run", "scene.yaml", "--no-color", "-n", "20"}, folder.path()).code == 0);
+  const std::string checkpoint = folder / "scene.out/checkpoint/latest.scree", before = read_text(checkpoint);
+  write_text(folder / "scene.out/stopped.scree", "of an earlier stop");
+  const support::ProgramEnd end = support::scree({"resume", "scene.out", "--no-color"}, folder.path());
+  INFO(end.err);
+  CHECK(end.code == 5);
+  CHECK(has(end.err, "not a finite number"));
+  CHECK(has(end.err, "the broken state is not saved"));
+  CHECK(has(end.err, "last good checkpoint: scene.out/checkpoint/latest.scree"));
+  CHECK_FALSE(std::filesystem::exists(folder / "scene.out/stopped.scree"));
+  CHECK(read_text(checkpoint) == before);
+}
+
 TEST_CASE("a ball that crosses half its radius in one cycle is exit 5") {
   const TemporaryFolder folder;
   const support::ProgramEnd end = run(folder, shot("-1e6", "cycle: 100000"));

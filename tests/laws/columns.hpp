@@ -38,6 +38,17 @@ struct OneContact {
   double gap = 0, r1 = 0.01, r2 = 0.01, mass = 0.01;
 };
 
+/// Overlapping by up to 0.1 mm or open by up to `most_gap`, in any motion of up to 1 m/s and `most_spin` (rad/s).
+inline OneContact random_contact(Numbers& random, double most_gap, double most_spin) {
+  OneContact c;
+  c.normal = random.vector(1).normalized();
+  c.gap = random.between(-1e-4, most_gap);
+  c.velocity = random.vector(1);
+  c.spin = random.vector(most_spin);
+  c.turn = random.vector(1e-3);
+  return c;
+}
+
 /// Contacts under one rule, with their state, in the memory layout of the boundary.
 class Columns {
  public:

@@ -52,15 +52,7 @@ Outcome run(const scree_contact_model& model, const Settings& settings, bool bon
   Outcome out;
   for (uint64_t cycle = 0; cycle < 20; ++cycle) {
     Numbers random(cycle);
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-      OneContact c;
-      c.normal = random.vector(1).normalized();
-      c.gap = random.between(-1e-4, 2e-5);
-      c.velocity = random.vector(1);
-      c.spin = random.vector(50);
-      c.turn = random.vector(1e-3);
-      columns.put(i, c);
-    }
+    for (std::size_t i = 0; i < columns.size(); ++i) columns.put(i, random_contact(random, 2e-5, 50));
     out.breaks += columns.run(isa, size);
     out.hash = out.hash * 31 + columns.hash();
   }

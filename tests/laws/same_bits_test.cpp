@@ -17,12 +17,7 @@ const scree_contact_model& linear() {
 void fill(Columns& columns, uint64_t seed) {
   Numbers random(seed);
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    OneContact c;
-    c.normal = random.vector(1).normalized();
-    c.gap = random.between(-1e-4, 1e-5);
-    c.velocity = random.vector(1);
-    c.spin = random.vector(10);
-    c.turn = random.vector(1e-3);
+    OneContact c = random_contact(random, 1e-5, 10);
     c.r1 = random.between(0.005, 0.02);
     c.r2 = random.between(0.005, 0.02);
     c.mass = random.between(1e-3, 1e-1);

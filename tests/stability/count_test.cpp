@@ -1,6 +1,8 @@
 // Cases D58 and D59: long counts of cycles, and scenes with next to nothing in them.
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "stability/lab.hpp"
 #include "support/catch.hpp"
@@ -80,15 +82,56 @@ TEST_CASE("D59 OK: one ball, no ball and one wall alone run and leave valid file
   lab::measured("D59", "one wall, no ball, one ball: exit 0, 200 cycles, history and view are valid");
 }
 
-TEST_CASE("D59 REJECT: nothing that limits the step is refused with the key to give") {
+TEST_CASE("D59 REJECT: a ball for which nothing limits the step is refused with the key to give") {
   const TemporaryFolder folder;
-  write_text(
-      folder / "wall.yaml",
-      "scree: 1\nwalls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nstages:\n  - go: [cycle: 5]\n");
-  const support::ProgramEnd end = support::scree({"run", "wall.yaml"}, folder.path());
+  write_text(folder / "one.csv", "x,y,z,radius\n0,0,0.5,0.01\n");
+  write_text(folder / "one.yaml",
+             "scree: 1\nballs:\n  some: {generator: file, path: one.csv, density: 2500}\n"
+             "contacts:\n  - {between: [some, some], model: linear, kn: 0, ks: 0}\nstages:\n  - go: [cycle: 5]\n");
+  const support::ProgramEnd end = support::scree({"run", "one.yaml"}, folder.path());
   CHECK(end.code == 3);
   CHECK(has(end.err, "nothing limits the step"));
   CHECK(has(end.err, "give 'timestep'"));
+}
+
+TEST_CASE("D59 OK: without a ball the step follows the action and its records, and walls move on time") {
+  const TemporaryFolder folder;
+  const auto run = [&](const std::string& name, const std::string& text) {
+    write_text(folder / (name + ".yaml"), "scree: 1\n" + text);
+    const support::ProgramEnd end = support::scree({"run", name + ".yaml"}, folder.path());
+    INFO(end.err);
+    CHECK(end.code == 0);
+    return nlohmann::json::parse(read_text(folder / (name + ".out/summary.json")));
+  };
+  const std::string lid =
+      "walls:\n  lid: {wall: plane, point: [0, 0, 1], normal: [0, 0, -1], velocity: [0, 0, -0.1]}\n";
+  // 0.5 s in 100 cycles; the lid has moved by 0.05 m then.
+  const auto plain = run("plain", lid +
+                                      "quantities: {height: walls.lid.displacement.z}\n"
+                                      "stages:\n  - press: [run: 0.5 s]\n");
+  CHECK(plain.at("cycles") == 100);
+  CHECK(plain.at("model_time").get<double>() == Approx(0.5).epsilon(1e-12));
+  CHECK(plain.at("quantities").at("height").get<double>() == Approx(-0.05).epsilon(1e-12));
+  // A record that wants more gets it: 0, 1, ... 500 ms.
+  run("recorded", lid +
+                      "stages:\n  - press: [run: 0.5 s]\n"
+                      "record: {curve: {writer: csv, every: 1 ms, quantities: [walls.lid.position.z]}}\n");
+  const std::string rows = read_text(folder / "recorded.out/curve.csv");
+  CHECK(std::count(rows.begin(), rows.end(), '\n') == 1 + 501);
+  // Cycles alone are 1 ms each.
+  CHECK(run("counted", lid + "stages:\n  - press: [cycle: 20]\n").at("model_time").get<double>() ==
+        Approx(0.02).epsilon(1e-12));
+  // Balls that come later bring their own step.
+  const auto later = run("later",
+                         "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nstages:\n"
+                         "  - wait: [run: 1 s]\n  - fill:\n    - add:\n"
+                         "        balls: {sand: {generator: lattice, kind: sc, radius: 10 mm, density: 2600,\n"
+                         "                       box: [[0, 0, 0], [40 mm, 40 mm, 40 mm]]}}\n"
+                         "        contacts: [{between: [sand, [sand, floor]], model: linear, kn: 1e5, ks: 0}]\n"
+                         "    - cycle: 20\n");
+  CHECK(later.at("cycles") == 120);
+  CHECK(later.at("timestep").at("used").get<double>() < 1e-3);
+  CHECK(later.at("timestep").at("used").get<double>() < later.at("timestep").at("certified").get<double>());
 }
 
 TEST_CASE("D59 OK: a scene may begin without balls and get them from a stage") {

@@ -199,8 +199,44 @@ TEST_CASE("zero balls and one wall, one ball and no wall, and a saved state are 
   REQUIRE(refusal_of("scree: 1\nballs: {one: {generator: points, centres: [[0, 0, 0]], radii: 1}}\n"
                      "contacts: [{between: [one, one], model: none}]\n") == "");
   const Scene scene =
-      read_text_scene("scree: 1\nstart: {state: other.out/packed}\nstages: [go: [delete: {walls: w}]]\n");
+      read_text_scene("scree: 1\nstart: {state: other.out/packed}\nstages: [go: [delete: {balls: sand}]]\n");
   REQUIRE(scene.start_state->text.ends_with("/other.out/packed"));
+  // Balls come from the state; walls, rules and processes are the scene's own.
+  for (const char* what : {"walls", "contacts", "processes"})
+    REQUIRE(refusal_of("scree: 1\nstart: {state: other.out/packed}\nstages: [go: [delete: {" + std::string(what) +
+                       ": w}]]\n")
+                .find("'w' at this point of the scene") != std::string::npos);
+}
+
+TEST_CASE("a rule that no pair reaches is warned of with the rules before it") {
+  const std::string balls =
+      "scree: 1\nballs:\n  one: {generator: points, centres: [[0, 0, 0]], radii: 1}\n"
+      "  two: {generator: points, centres: [[9, 0, 0]], radii: 1}\n"
+      "walls: {floor: {wall: plane, point: [0, 0, -1], normal: [0, 0, 1]}}\ncontacts:\n";
+  const std::string law = ", model: linear, kn: 1e6, ks: 1e6, fric: 0.5}\n";
+  const auto warnings = [&](const std::string& rest) { return read_text_scene(balls + rest).warnings; };
+  REQUIRE(warnings("  - {name: all, between: [balls, [balls, walls]]" + law + "  - {name: late, between: [two, one]" +
+                   law) ==
+          std::vector<std::string>{"scene:8:5: warning: rule 'late' is never used: 'all' comes first and fits all its "
+                                   "pairs; put it before it, or delete it"});
+  REQUIRE(warnings("  - {name: a, between: [one, balls]" + law + "  - {name: b, between: [two, [two, floor]]" + law +
+                   "  - {name: c, between: [balls, balls]" + law + "  - {name: d, between: [one, floor]" + law) ==
+          std::vector<std::string>{"scene:9:5: warning: rule 'c' is never used: 'a', 'b' come first and fit all its "
+                                   "pairs; put it before them, or delete it"});
+  // Half of it reached, a sub-group before its set, and one that a stage brings to light or adds in front.
+  REQUIRE(warnings("  - {name: a, between: [one, one]" + law + "  - {name: b, between: [balls, [balls, walls]]" + law)
+              .empty());
+  REQUIRE(warnings("  - {name: a, between: [one.fine, balls]" + law + "  - {name: b, between: [one, [balls, walls]]" +
+                   law + "  - {name: c, between: [two, [balls, walls]]" + law)
+              .empty());
+  REQUIRE(warnings("  - {name: all, between: [balls, [balls, walls]]" + law + "  - {name: late, between: [two, one]" +
+                   law + "  - {name: rest, between: [balls, [balls, walls]]" + law +
+                   "stages: [go: [delete: {contacts: all}]]\n")
+              .empty());
+  REQUIRE(warnings("  - {name: all, between: [balls, [balls, walls]]" + law +
+                   "stages: [go: [add: {contacts: [{name: late, between: [two, one]" + law.substr(0, law.size() - 1) +
+                   "]}]]\n")
+              .empty());
 }
 
 TEST_CASE("pieces that touch nothing are warned of") {

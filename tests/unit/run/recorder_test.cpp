@@ -142,7 +142,9 @@ TEST_CASE("frame: balls in id order, contacts in pair order, walls in the scene'
   for (const bool turned : {false, true}) {
     wall.centre = {0, 0, turned ? 0.0 : 0.25};
     if (turned) wall.turn = {s, 0, s, 0};  // a quarter about y: the plane z = 0 becomes x = 0
-    const Frame built(*scene, quantities, content, 4);
+    ShownBox box;
+    box.follow(scene->engine);
+    const Frame built(*scene, quantities, content, 4, box);
     const scree_frame& frame = built.abi();
     REQUIRE(frame.ball_count == 3);
     CHECK(std::vector<uint64_t>(frame.ball_id, frame.ball_id + 3) == std::vector<uint64_t>{3, 7, 9});
@@ -210,4 +212,39 @@ TEST_CASE("condition: rises, bounds, and numbers that are none", "[run]") {
   }
   // The smallest time seen is that of cycle 10, so three times it is reached at cycle 30; the first of those met wins.
   CHECK(met == std::vector<std::optional<std::size_t>>{std::nullopt, std::nullopt, 1u, 1u});
+}
+
+TEST_CASE("frame: unbounded walls keep their size while balls move, and grow by a margin when one leaves", "[run]") {
+  Simulated scene(scene_of("1 ms", ""), "x,y,z,radius\n0,0,0,0.1\n1,1,1,0.1\n");
+  Balls& balls = scene->engine.balls;
+  ShownBox box;
+  box.follow(scene->engine);
+  // From -0.1 to 1.1, and a tenth of 1.2 on each side.
+  const auto low = box.low(), high = box.high();
+  for (std::size_t c = 0; c < 3; ++c) {
+    CHECK(low[c] == Approx(-0.22));
+    CHECK(high[c] == Approx(1.22));
+  }
+  balls[Column::x][0] = 0.3;
+  balls[Column::z][1] = 1.11;
+  box.follow(scene->engine);
+  CHECK(box.low() == low);
+  CHECK(box.high() == high);
+  // 1.9 + 0.1 is outside; the edge is 2.0 - 0.2 = 1.8 long now, and 0.18 is added on this side alone.
+  balls[Column::x][1] = 1.9;
+  box.follow(scene->engine);
+  CHECK(box.high()[0] == Approx(2.18));
+  CHECK(box.low() == low);
+  CHECK(box.high()[1] == high[1]);
+  // What a checkpoint keeps goes on in the same way, also when the balls have come back together.
+  ShownBox resumed;
+  resumed.restore(box.saved());
+  balls[Column::x][1] = 1.0;
+  resumed.follow(scene->engine);
+  CHECK(resumed.low() == box.low());
+  CHECK(resumed.high() == box.high());
+  ShownBox nothing;
+  nothing.restore(ShownBox().saved());
+  nothing.follow(scene->engine);
+  CHECK(nothing.high()[1] == Approx(1.1 + 0.1 * 1.31));
 }

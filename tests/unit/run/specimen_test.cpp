@@ -2,14 +2,12 @@
 #include <map>
 #include <memory>
 
-#include "core/run/state.hpp"
-#include "support/catch.hpp"
-#include "support/paths.hpp"
-#include "support/temporary_folder.hpp"
+#include "unit/run/saved_run.hpp"
 
 // `start: {state}`: the reference is the run that the state was saved from, going on.
 
 using namespace scree::core;
+using namespace support;
 
 namespace {
 
@@ -29,21 +27,6 @@ processes:
   pull: {process: gravity, acceleration: [0, 0, -9.81]}
 stages: [{settle: [{cycle: 100}]}]
 )";
-
-SearchPath build_path() {
-  SearchPath path;
-  path.others = {support::plugin_dir()};
-  return path;
-}
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  text.replace(text.find(from), from.size(), to);
-  return text;
-}
-
-void run(Simulation& simulation, int cycles) {
-  for (int k = 0; k < cycles; ++k) simulation.engine.advance();
-}
 
 /// Sum of the sizes of what contacts remember.
 double memory(const Simulation& simulation) {
@@ -68,7 +51,7 @@ double distance(const Simulation& a, const Simulation& b) {
 
 struct Bench {
   TemporaryFolder folder;
-  Catalogue catalogue{build_path()};
+  Catalogue catalogue{plugins_of_build()};
   Simulation original{read_scene({"", std::string(head) + balls + tail, {}, {}}, catalogue), catalogue, 1, 0};
 
   explicit Bench(bool with_forces) {
@@ -76,9 +59,7 @@ struct Bench {
     original.prepare();
     run(original, 20);
     if (with_forces) original.engine.forces();
-    ArchiveWriter out(folder / "state");
-    save_state(original, out);
-    REQUIRE(out.commit());
+    save(original, folder / "state");
     REQUIRE(original.engine.walls[0].contacts > 5);
     REQUIRE(memory(original) > 0);
   }

@@ -3,15 +3,13 @@
 #include <random>
 
 #include "core/run/packing.hpp"
-#include "core/run/state.hpp"
-#include "support/catch.hpp"
-#include "support/paths.hpp"
-#include "support/temporary_folder.hpp"
+#include "unit/run/saved_run.hpp"
 
 // A file whose hashes are right but whose values are not those of a run: it must be refused with the section named, or
 // do no harm. The archive's own checks (damage, truncation) are in archive_test.cpp.
 
 using namespace scree::core;
+using namespace support;
 
 namespace {
 
@@ -31,12 +29,6 @@ processes:
   damping: {process: local_damping, factor: 0.1}
 stages: [{settle: [{cycle: 100}]}]
 )";
-
-SearchPath build_path() {
-  SearchPath path;
-  path.others = {support::plugin_dir()};
-  return path;
-}
 
 /// Changes the values of one section; gets them as they are.
 struct Change {
@@ -84,7 +76,7 @@ std::string refusal(const std::string& path, Catalogue& catalogue, uint64_t cycl
   try {
     Simulation simulation(saved_scene(in, catalogue), catalogue, 2, 0);
     load_state(simulation, in);
-    for (uint64_t k = 0; k < cycles; ++k) simulation.engine.advance();
+    run(simulation, cycles);
   } catch (const NumericalStop&) {
     return "";
   } catch (const Refusal& refused) {
@@ -97,13 +89,11 @@ void save_pile(const std::string& path, Catalogue& catalogue) {
   Simulation simulation(read_scene({"", pile, {}, {}}, catalogue), catalogue, 1, 0);
   simulation.set_up();
   simulation.prepare();
-  for (int k = 0; k < 4; ++k) simulation.engine.advance();
+  run(simulation, 4);
   simulation.engine.forces();
   REQUIRE(simulation.engine.contacts.active() > 50);
   REQUIRE(simulation.engine.walls[0].contacts > 10);
-  ArchiveWriter out(path);
-  save_state(simulation, out);
-  REQUIRE(out.commit());
+  save(simulation, path);
 }
 
 Change u8(const std::string& name, std::function<void(std::vector<uint8_t>&)> f) {
@@ -178,7 +168,7 @@ std::vector<Change> changes_of_the_rest() {
 
 TEST_CASE("a state whose indices do not fit is refused and the section is named") {
   const TemporaryFolder folder;
-  Catalogue catalogue(build_path());
+  Catalogue catalogue(plugins_of_build());
   save_pile(folder / "good", catalogue);
   copy_changed(folder / "good", folder / "same", {"", {}, {}, {}, {}, {}});
   REQUIRE(read_text(folder / "good") == read_text(folder / "same"));
@@ -199,7 +189,7 @@ TEST_CASE("a state whose indices do not fit is refused and the section is named"
 
 TEST_CASE("random values in a state are refused or do no harm") {
   const TemporaryFolder folder;
-  Catalogue catalogue(build_path());
+  Catalogue catalogue(plugins_of_build());
   save_pile(folder / "good", catalogue);
   const std::vector<std::string> sections = ArchiveReader(folder / "good").names();
   std::mt19937_64 random(20240611);

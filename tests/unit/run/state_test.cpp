@@ -1,17 +1,14 @@
-#include "core/run/state.hpp"
-
 #include <functional>
 #include <random>
 
 #include "core/base/isa.hpp"
-#include "support/catch.hpp"
-#include "support/paths.hpp"
-#include "support/temporary_folder.hpp"
+#include "unit/run/saved_run.hpp"
 
 // What is checked here needs no closed form: a run that was saved, loaded and continued must have the same bits as the
 // run that went on, so the uninterrupted run is the reference.
 
 using namespace scree::core;
+using namespace support;
 
 namespace {
 
@@ -49,31 +46,7 @@ stages:
     - delete: {processes: pull}
 )";
 
-Catalogue catalogue_of_build() {
-  SearchPath path;
-  path.others = {support::plugin_dir()};
-  return Catalogue(path);
-}
-
 Scene scene_of(const std::string& text, Catalogue& catalogue) { return read_scene({"", text, {}, {}}, catalogue); }
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  text.replace(text.find(from), from.size(), to);
-  return text;
-}
-
-void run(Simulation& simulation, uint64_t cycles) {
-  for (uint64_t k = 0; k < cycles; ++k) {
-    simulation.engine.forces();
-    simulation.engine.advance();
-  }
-}
-
-void save(const Simulation& simulation, const std::string& path) {
-  ArchiveWriter out(path);
-  save_state(simulation, out);
-  REQUIRE(out.commit());
-}
 
 /// The hash after loading and `cycles` more, with another thread count and instruction set.
 uint64_t continued(const std::string& path, Catalogue& catalogue, uint64_t cycles, unsigned threads, int isa,
@@ -92,7 +65,7 @@ const std::vector<Action>& actions_of(const Simulation& simulation) { return sim
 
 TEST_CASE("a run saved at any cycle goes on with the same bits") {
   const TemporaryFolder folder;
-  Catalogue catalogue = catalogue_of_build();
+  Catalogue catalogue(plugins_of_build());
   Simulation simulation(scene_of(flow, catalogue), catalogue, 1, 0);
   simulation.set_up();
   simulation.prepare();
@@ -122,7 +95,7 @@ TEST_CASE("a run saved at any cycle goes on with the same bits") {
 
 TEST_CASE("saving changes nothing, and loading gives back what was saved") {
   const TemporaryFolder folder;
-  Catalogue catalogue = catalogue_of_build();
+  Catalogue catalogue(plugins_of_build());
   Simulation one(scene_of(flow, catalogue), catalogue, 1, 0), two(scene_of(flow, catalogue), catalogue, 1, 0);
   for (Simulation* simulation : {&one, &two}) {
     simulation->set_up();
@@ -153,7 +126,7 @@ TEST_CASE("saving changes nothing, and loading gives back what was saved") {
 
 TEST_CASE("blocks that share contacts go on with the same bits on any number of threads") {
   const TemporaryFolder folder;
-  Catalogue catalogue = catalogue_of_build();
+  Catalogue catalogue(plugins_of_build());
   std::string text = replaced(flow, "count: 200", "count: 2500");
   text = replaced(text, "edge: 0.06", "edge: 0.14");
   text = replaced(replaced(text, "0.042]]", "0.1]]"), "0, 0.045]", "0, 0.11]");
@@ -176,7 +149,7 @@ TEST_CASE("blocks that share contacts go on with the same bits on any number of 
 
 TEST_CASE("what edits made of the scene is saved too") {
   const TemporaryFolder folder;
-  Catalogue catalogue = catalogue_of_build();
+  Catalogue catalogue(plugins_of_build());
   Simulation simulation(scene_of(flow, catalogue), catalogue, 1, 0);
   simulation.set_up();
   simulation.prepare();
