@@ -46,7 +46,26 @@ void Engine::check_cell() const {
   }
 }
 
+Engine::Census Engine::census() const {
+  Census now{balls.size(), 0};
+  for (std::size_t row = 0; row < balls.size(); ++row) now.ids += balls.id()[row];
+  return now;
+}
+
+// Balls come and go by edits only, and prepare() follows each.
+void Engine::check_count() const {
+  const Census now = census();
+  if (now == counted_) return;
+  throw NumericalStop(
+      "cycle " + std::to_string(clock.cycle) + ": " + std::to_string(now.balls) + " balls are there, " +
+          std::to_string(counted_.balls) +
+          " were placed, and their ids are not all those that were: memory was overwritten, by a plug-in "
+          "most likely; check yours with scree vet",
+      {});
+}
+
 void Engine::prepare() {
+  counted_ = census();
   const bool spins = contacts.book.spins() || std::any_of(processes.begin(), processes.end(), [](const Process& p) {
                        return p.needs(SCREE_SPIN) || p.needs(SCREE_MOMENT);
                      });
@@ -80,6 +99,7 @@ void Engine::prepare() {
 
 void Engine::rebuild() {
   contacts.rebuild(balls, walls, cell, skin_, team);
+  check_count();
   const std::size_t n = balls.size();
   for (int axis = 0; axis < 3; ++axis) {
     const double* from = balls[static_cast<Column>(static_cast<int>(Column::x) + axis)];

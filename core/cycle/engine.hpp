@@ -115,12 +115,21 @@ class Engine {
   void run_model_processes();
   void stop_not_finite();
   void check_speed(double fastest);
+  /// How many balls there are, and the sum of their ids.
+  struct Census {
+    std::size_t balls = 0;
+    uint64_t ids = 0;
+    bool operator==(const Census&) const = default;
+  };
+  Census census() const;
+  void check_count() const;
   MotionInput motion_input();
   Observation observation_;
   std::vector<const Process*> adders_, scalers_;
   std::vector<MotionResult> motion_;  ///< of the last pass, by block
   std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
+  Census counted_;  ///< by the last prepare()
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;
   uint64_t rebuilds_ = 0, contact_updates_ = 0;

@@ -92,7 +92,7 @@ std::string until_text(const Until& until) {
 
 std::vector<std::string> stop_steps(const Simulation& simulation) {
   std::vector<std::string> steps{
-      fmt::format("guards: finite numbers, overlap at most {:g} of the radius, displacement per cycle",
+      fmt::format("guards: finite numbers, overlap at most {:g} of the radius, displacement per cycle, count of balls",
                   simulation.engine.overlap_limit)};
   for (const Stage& stage : simulation.scene.stages)
     for (const Action& action : stage.actions)

@@ -150,3 +150,19 @@ TEST_CASE("D59 OK: a scene may begin without balls and get them from a stage") {
   CHECK(end.code == 0);
   CHECK(has(read_text(folder / "later.out/summary.json"), "\"balls\": 8"));
 }
+
+TEST_CASE("balls are counted: a run stops at the rebuild after an id was overwritten") {
+  lab::Lab here;
+  const auto simulation = here.make(lab::flow);
+  lab::run(*simulation, 100);
+  ++simulation->engine.balls.id()[3];
+  std::string message;
+  try {
+    lab::run(*simulation, 1000);
+  } catch (const NumericalStop& stop) {
+    message = stop.what();
+  }
+  INFO(message);
+  CHECK(has(message, "their ids are not all those that were"));
+  CHECK(has(message, "scree vet"));
+}
