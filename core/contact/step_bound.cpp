@@ -147,8 +147,7 @@ void add_walls(Accumulator& sums, const Contacts& contacts, const Balls& balls, 
       uint32_t ball[8], patch[8];
       double nx[8], ny[8], nz[8], distance[8];
       const scree_touches touches{sizeof(scree_touches), 8, ball, patch, nx, ny, nz, distance};
-      const uint32_t found = std::min<uint32_t>(
-          8, wall.table->touch(wall.geometry.get(), 1, &centre[0], &centre[1], &centre[2], &reach, &touches));
+      const uint32_t found = std::min<uint32_t>(8, wall.touch(1, &centre[0], &centre[1], &centre[2], &reach, touches));
       for (uint32_t k = 0; k < found; ++k) {
         if (distance[k] > 2 * view.radius[row] + rule.reach) continue;
         const auto normal = wall.from_frame({nx[k], ny[k], nz[k]});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/crash_note.hpp"
+
 namespace scree::core {
 
 namespace {
@@ -112,6 +114,7 @@ void run_rows(const MotionInput& input, const Process& process, std::size_t firs
   double inertia[SCREE_ROWS], fixed[SCREE_ROWS];
   std::vector<double*> words;
   words.reserve(16);
+  crash_note = {process.plugin.c_str(), process.name.c_str(), input.cycle, first / block_rows};
   for (uint32_t k = 0; k < process.table->need_count; ++k) {
     const uint32_t column = process.table->needs[k].column;
     const auto three = [&](Column from) {
@@ -155,8 +158,10 @@ void run_rows(const MotionInput& input, const Process& process, std::size_t firs
   }
   const scree_rows rows{
       sizeof(scree_rows), static_cast<uint32_t>(n), first, input.cycle, input.time, input.dt, words.data(), sum};
-  for (int isa = input.isa; isa >= 0; --isa)
-    if (process.table->rows[isa] != nullptr) return process.table->rows[isa](process.object.get(), &rows);
+  int isa = input.isa;
+  while (isa > 0 && process.table->rows[isa] == nullptr) --isa;
+  process.table->rows[isa](process.object.get(), &rows);
+  crash_note = CrashNote{};
 }
 
 std::size_t sum_words(const std::vector<const Process*>& processes) {

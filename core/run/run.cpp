@@ -86,6 +86,7 @@ RunResult resume_run(const std::string& path, Catalogue& catalogue, const RunOpt
   OutputFolder folder = OutputFolder::resume(path);
   const CheckpointFiles checkpoints(path);
   const ArchiveReader archive = previous ? checkpoints.open_previous() : checkpoints.open_latest();
+  set_last_checkpoint(archive.path());
   Scene scene = saved_scene(archive, catalogue, options.allow_plugin_change);
   auto simulation = make(std::move(scene), catalogue, options);
   load_state(*simulation, archive);
