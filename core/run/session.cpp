@@ -57,8 +57,8 @@ void Session::complete(const Needs& extra) {
   {
     const Watchdog::Section watched(*watchdog_, engine.clock.cycle);
     engine.forces();
+    quantities_.follow();
   }
-  quantities_.follow();
   for (const auto& recorder : recorders_)
     if (recorder->due()) recorder->write();
 }
@@ -161,6 +161,7 @@ Session::Ending Session::stages() {
   const auto& all = simulation_->scene.stages;
   if (position.stage == 0 && position.action == 0 && !position.inside) {
     complete(final_needs_);
+    const Watchdog::Section watched(*watchdog_, simulation_->engine.clock.cycle);
     for (const std::string& doubt : doubts(*simulation_)) log::warning("{}", doubt);
   }
   report_overlaps();

@@ -36,9 +36,10 @@ std::vector<Sentence> sentences() {
     const std::size_t first = line.find(" | "), second = line.find(" | ", first + 1);
     REQUIRE(second != std::string::npos);
     Sentence one{line.substr(0, first), line.substr(first + 3, second - first - 3), line.substr(second + 3)};
-    one.text = replaced(one.text, "FILE", "DIR/contact_model/" + one.library + ".so");
-    one.text =
-        replaced(one.text, "MODEL", "DIR/contact_model/" + one.library + ".so: contact_model '" + one.library + "'");
+    one.text = replaced(one.text, "THIS_FILE", "DIR/contact_model/" + one.library + ".so");
+    one.text = replaced(one.text, "THIS_MODEL",
+                        "DIR/contact_model/" + one.library + ".so: contact_model '" + one.library + "'");
+    one.text = replaced(one.text, "THIS_BUILD", support::binary_dir());
     one.text = replaced(one.text, "THIS_ABI", std::to_string(SCREE_ABI_MAJOR) + "." + std::to_string(SCREE_ABI_MINOR));
     one.text = replaced(one.text, "HEADER_BYTES", std::to_string(sizeof(scree_plugin_header)));
     one.text = replaced(one.text, "COMPONENT_BYTES", std::to_string(sizeof(scree_component)));
@@ -97,7 +98,7 @@ void put(const PluginFolder& folder, const std::string& library) {
 std::string scene(const std::string& model) {
   return "scree: 1\nballs:\n  sand: {generator: lattice, kind: sc, radius: 0.01, box: [[0, 0, 0], [0.02, 0.02, 0.04]], "
          "density: 2600}\ncontacts:\n  - {name: grains, between: [sand, sand], model: \"" +
-         model + "\"}\nstages:\n  - go: [cycle: 1]\n";
+         model + "\", kn: 1e5}\nstages:\n  - go: [cycle: 1]\n";
 }
 
 std::string without(const PluginFolder& folder, const std::string& text) {
@@ -174,8 +175,9 @@ TEST_CASE("no code of a library runs unless its folder is one for plug-ins") {
   const std::string proof = here / "proof";
   ::setenv("SCREE_TEST_EVIDENCE", proof.c_str(), 1);
   ::setenv("LD_LIBRARY_PATH", here.path().c_str(), 1);
-  for (const std::string model : {"evidence", "evidence.so", "./evidence.so", "contact_model/evidence", "../evidence",
-                                  here / "evidence.so", here / "contact_model/evidence"}) {
+  for (const std::string& model :
+       std::vector<std::string>{"evidence", "evidence.so", "./evidence.so", "contact_model/evidence", "../evidence",
+                                here / "evidence.so", here / "contact_model/evidence"}) {
     INFO(model);
     write_text(here / "scene.yaml", scene(model));
     const support::ProgramEnd end = support::scree({"run", "scene.yaml"}, here.path());

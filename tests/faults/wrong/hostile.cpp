@@ -34,7 +34,7 @@ int* volatile nowhere = nullptr;
   if (deed == 21) *nowhere = 1;
   if (deed == 22) counted = fill_stack(0);
   if (deed == 23) std::abort();
-  if (deed == 24) counted = 1 / zero;
+  if (deed == 24) counted = counted / zero;
 }
 
 /// Linear springs, until an overlap is larger than `from`.

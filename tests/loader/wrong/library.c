@@ -119,7 +119,7 @@ __attribute__((unused)) static void stiffness(const void* rule, const scree_batc
 
 #define ROW                                                                                                    \
   {PROPERTY_SIZE, TYPE, PROPERTY, UNIT, "stiffness", WORD, 1, SCREE_HAS_LOW | SCREE_HAS_HIGH | SCREE_HAS_FALLBACK, \
-   0, HIGH, 0, FALLBACK, 0, 0, 0, 0}
+   0, 0, HIGH, FALLBACK, 1, 0, 0, 0}
 static const scree_property properties[] = {ROW, ROW};
 static const char* const forms[] = {FORM};
 static const scree_contact_model model = {
