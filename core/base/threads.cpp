@@ -46,27 +46,31 @@ unsigned usable_cores() {
   return std::max(1u, std::thread::hardware_concurrency());
 }
 
+SignalsBlocked::SignalsBlocked() {
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}) sigaddset(&blocked, s);
+  pthread_sigmask(SIG_BLOCK, &blocked, &before_);
+}
+
+SignalsBlocked::~SignalsBlocked() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
 bool Team::inside() { return inside_phase; }
 
 Team::Team(unsigned threads, std::function<void(unsigned)> on_start)
     : size_(threads == 0 ? 1 : threads), thrown_(size_), on_start_(std::move(on_start)) {
   // With more threads than cores a spinning thread keeps the core from the one it waits for.
   spin_seconds_ = size_ <= usable_cores() ? 50e-6 : 1e-6;
-  sigset_t blocked, before;
-  sigemptyset(&blocked);
-  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU}) sigaddset(&blocked, s);
-  pthread_sigmask(SIG_BLOCK, &blocked, &before);
+  const SignalsBlocked blocked;
   try {
     for (unsigned t = 1; t < size_; ++t) threads_.emplace_back([this, t] { serve(t); });
   } catch (...) {
-    pthread_sigmask(SIG_SETMASK, &before, nullptr);
     quit_ = true;
     epoch_.fetch_add(1);
     futex(epoch_, FUTEX_WAKE, INT32_MAX);
     for (auto& t : threads_) t.join();
     throw;
   }
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 Team::~Team() {

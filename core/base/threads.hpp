@@ -1,4 +1,6 @@
 #pragma once
+#include <signal.h>
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +12,19 @@
 #include <vector>
 
 namespace scree::core {
+
+/// While it lives, INT, TERM, HUP, USR1 and XCPU are blocked on this thread and on those it starts: the caller starts
+/// helpers so that a signal interrupts its own thread, never one of theirs.
+class SignalsBlocked {
+ public:
+  SignalsBlocked();
+  ~SignalsBlocked();
+  SignalsBlocked(const SignalsBlocked&) = delete;
+  SignalsBlocked& operator=(const SignalsBlocked&) = delete;
+
+ private:
+  sigset_t before_;
+};
 
 /// A fixed team of threads; the caller is thread 0. Between phases the others spin for a moment and then sleep, so a
 /// phase costs about a microsecond while phases follow each other and nothing while none does.

@@ -60,6 +60,7 @@ void CommonFlags::open_log() const {
 std::unique_ptr<Catalogue> CommonFlags::catalogue() const {
   auto out = std::make_unique<Catalogue>(SearchPath::standard({plugins.begin(), plugins.end()}));
   for (const std::string& warning : out->warnings()) log::write(log::Level::warning, warning);
+  out->warn = [](const std::string& warning) { log::write(log::Level::warning, warning); };
   return out;
 }
 
@@ -95,6 +96,8 @@ void RunFlags::declare(CLI::App& app) {
   app.add_option("-n,--cycles", cycles, "stop after that many cycles")->type_name("CYCLES");
   app.add_option("--time-limit", time_limit, "stop after this wall time, as in 2h, resumable: exit code 75")
       ->type_name("TIME");
+  app.add_option("--patience", patience, "what one cycle may take before it counts as endless; by default 60 s")
+      ->type_name("TIME");
 }
 
 void RunFlags::declare_beginning(CLI::App& app) {
@@ -119,6 +122,7 @@ RunOptions RunFlags::options(const CommonFlags& common) const {
   if (!isa.empty()) out.isa = parse_isa(isa);
   if (!cycles.empty()) out.cycles = count_of("-n", cycles, 1, "cycles");
   if (!time_limit.empty()) out.time_limit = seconds_of("--time-limit", time_limit);
+  if (!patience.empty()) out.patience = seconds_of("--patience", patience);
   out.stage = stage;
   out.from = from;
   return out;

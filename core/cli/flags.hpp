@@ -36,10 +36,10 @@ struct SceneFlags {
 
 /// How a run is carried out; the texts are read by `options`, which says what is wrong with them.
 struct RunFlags {
-  std::string threads, isa, cycles, time_limit, output, stage, from;
+  std::string threads, isa, cycles, time_limit, patience, output, stage, from;
   bool restart = false;
 
-  void declare(CLI::App& app);            ///< threads, isa, cycles, time limit
+  void declare(CLI::App& app);            ///< threads, isa, cycles, time limit, patience
   void declare_beginning(CLI::App& app);  ///< output, stage, from, restart
   RunOptions options(const CommonFlags& common) const;
 };

@@ -54,6 +54,27 @@ Excess pair_excess(const BoundRule& rule, const Balls& balls, uint32_t n, double
   return excess;
 }
 
+std::string pair_text(uint64_t a, uint64_t b) {
+  return "balls " + std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b));
+}
+
+// Called after the forces were added: they have the sign of the higher row.
+Excess useless_force(const BoundRule& rule, const Balls& balls, uint32_t n, const Scratch& s) {
+  const bool moment = !rule.normal_only() && (rule.needs & SCREE_GIVES_MOMENT) != 0;
+  Excess excess;
+  for (uint32_t k = 0; k < n && !excess.found; ++k) {
+    const std::array<double, 3> force{s.sign[k] * s.fx[k], s.sign[k] * s.fy[k], s.sign[k] * s.fz[k]};
+    const uint64_t a = balls.id()[s.row[k]], b = balls.id()[s.other[k]];
+    excess = {true, rule.name, rule.model_name, std::min(a, b), std::max(a, b), "", 0, 0, "force", force};
+    if (usable(force) && moment) {
+      excess.useless = "moment";
+      excess.value = {s.sign[k] * s.mx[k], s.sign[k] * s.my[k], s.sign[k] * s.mz[k]};
+    }
+    excess.found = !usable(excess.value);
+  }
+  return excess;
+}
+
 double least_of(const double* values, std::size_t n) { return n == 0 ? 1.0 : *std::min_element(values, values + n); }
 
 }  // namespace
@@ -86,10 +107,14 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
     load_columns(list, n, s);
     crash_note = {rule.model_name.c_str(), rule.name.c_str(),     options.cycle, block,
                   balls.id()[s.row[0]],    balls.id()[s.other[0]]};
-    run_law(rule, n, options.dt, s);
+    if (!run_law(rule, n, options.dt, s)) {
+      load_columns(list, n, s);
+      const uint32_t k = find_thrower(rule, n, options.dt, s);
+      refuse_thrower(rule, k == n ? "" : pair_text(balls.id()[s.row[k]], balls.id()[s.other[k]]), options.cycle);
+    }
     store_columns(list, n, s);
     if (options.report) store_report(list, rule, n, s);
-    scatter(n, first, slices_.slice(block), s);
+    if (scatter(n, first, slices_.slice(block), s) && !excess.found) excess = useless_force(rule, balls, n, s);
   }
   return excess;
 }
@@ -116,15 +141,17 @@ Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vec
                         options.dt,
                         options.overlap_limit,
                         options.sums,
-                        options.report};
-    crash_note = {rule.model_name.c_str(), rule.name.c_str(), options.cycle, block, 0, 0};
-    const int64_t slot = run_wall_list(list, pass, s);
-    if (slot < 0 || worst.found) continue;
-    const uint32_t row = list.slots[static_cast<std::size_t>(slot)].row;
+                        options.report,
+                        options.cycle};
+    crash_note = {rule.model_name.c_str(), rule.name.c_str(), options.cycle, block};
+    const WallExcess excess = run_wall_list(list, pass, s);
+    if (excess.slot < 0 || worst.found) continue;
+    const uint32_t row = list.slots[static_cast<std::size_t>(excess.slot)].row;
     const double r = view.radius[row];
-    worst = {true, rule.name, rule.model_name, balls.id()[row], 0, walls[list.wall].name, options.overlap_limit * r, r};
+    worst = {true,           rule.name, rule.model_name, balls.id()[row], 0, walls[list.wall].name,
+             excess.overlap, r,         excess.useless,  excess.value};
   }
-  crash_note = {};
+  crash_note = CrashNote{};
   return worst;
 }
 

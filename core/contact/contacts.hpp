@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -15,13 +16,15 @@
 
 namespace scree::core {
 
-/// A pair that broke a guard in the contact pass.
+/// A pair that broke a guard in the contact pass: its overlap is beyond the limit, or what its law gave is useless.
 struct Excess {
   bool found = false;
   std::string rule, plugin;
   uint64_t id1 = 0, id2 = 0;  ///< id2 is 0 for a wall
   std::string wall;
   double overlap = 0, radius = 0;  ///< m; of the smaller ball
+  const char* useless = nullptr;   ///< "force" or "moment"; null: it is the overlap
+  std::array<double, 3> value{};   ///< of that force or moment on piece 2, N or N m
 };
 
 /// What one evaluation of all contacts is asked to do beside forces.

@@ -1,7 +1,5 @@
 #include "core/contact/run_law.hpp"
 
-#include <limits>
-
 #include "core/base/error.hpp"
 
 namespace scree::core {
@@ -52,13 +50,40 @@ scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& s, c
   return batch;
 }
 
-void run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& s) {
+bool run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& s) {
   const double* property[2 * Scratch::state_words];
   double* state[Scratch::state_words];
   const scree_batch batch = batch_of(rule, n, dt, s, property, state);
-  if (rule.law(rule.words.data(), &batch) == std::numeric_limits<uint32_t>::max())
-    throw Refusal(Exit::plugin, "contact model '" + rule.model_name + "' of rule '" + rule.name +
-                                    "' threw an exception while it ran: report it to the plug-in's author");
+  return rule.law(rule.words.data(), &batch) != std::numeric_limits<uint32_t>::max();
+}
+
+uint32_t find_thrower(const BoundRule& rule, uint32_t n, double dt, Scratch& s) {
+  const double* property[2 * Scratch::state_words];
+  double* state[Scratch::state_words];
+  const auto next = [](auto*& column) {
+    if (column != nullptr) ++column;
+  };
+  scree_batch batch = batch_of(rule, 1, dt, s, property, state);
+  for (uint32_t k = 0; k < n; ++k) {
+    if (rule.law(rule.words.data(), &batch) == std::numeric_limits<uint32_t>::max()) return k;
+    for (auto* column : {&batch.nx, &batch.ny, &batch.nz, &batch.gap, &batch.vx, &batch.vy, &batch.vz, &batch.wx,
+                         &batch.wy, &batch.wz, &batch.tx, &batch.ty, &batch.tz, &batch.r1, &batch.r2, &batch.mass})
+      next(*column);
+    for (auto* column : {&batch.fx, &batch.fy, &batch.fz, &batch.mx, &batch.my, &batch.mz, &batch.sliding})
+      next(*column);
+    if (batch.property != nullptr)
+      for (std::size_t w = 0; w < rule.words.size(); ++w) next(property[w]);
+    if (batch.state != nullptr)
+      for (uint32_t w = 0; w < rule.state_words(); ++w) next(state[w]);
+  }
+  return n;
+}
+
+void refuse_thrower(const BoundRule& rule, const std::string& pieces, uint64_t cycle) {
+  throw Refusal(Exit::plugin, "cycle " + std::to_string(cycle) + ": contact model '" + rule.model_name + "' of rule '" +
+                                  rule.name + "' threw an exception" +
+                                  (pieces.empty() ? "" : " for the contact of " + pieces) +
+                                  ": report it to the plug-in's author");
 }
 
 }  // namespace scree::core

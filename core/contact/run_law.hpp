@@ -1,4 +1,6 @@
 #pragma once
+#include <string>
+
 #include "core/contact/rule.hpp"
 #include "core/contact/scratch.hpp"
 
@@ -8,7 +10,14 @@ namespace scree::core {
 scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& scratch, const double** property,
                      double** state);
 
-/// Hands the batch in the scratch to the rule's law. Throws Refusal (exit 4) when the law threw.
-void run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& scratch);
+/// Hands the batch in the scratch to the rule's law; false when the law threw for one of the contacts.
+bool run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& scratch);
+
+/// The contact of the batch for which the law throws: each is tried alone. The state must be that of before the law
+/// ran. `n` when it throws for none alone.
+uint32_t find_thrower(const BoundRule& rule, uint32_t n, double dt, Scratch& scratch);
+
+/// Throws Refusal (exit 4): the law threw for the contact of these pieces ("" when it is not known) at this cycle.
+[[noreturn]] void refuse_thrower(const BoundRule& rule, const std::string& pieces, uint64_t cycle);
 
 }  // namespace scree::core

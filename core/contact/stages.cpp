@@ -174,18 +174,20 @@ SCREE_STAGE bool geometry(const BallView& b, uint32_t n, double dt, double overl
 
 // Record words: lean fx fy fz sum; with spin fx fy fz mx my mz sum (unused).
 template <bool Lean, bool Spin, bool Moment, bool Sum>
-SCREE_STAGE void scatter(uint32_t n, std::size_t first_row, double* slice, Scratch& s) {
+SCREE_STAGE bool scatter(uint32_t n, std::size_t first_row, double* slice, Scratch& s) {
   constexpr std::size_t stride = Lean ? 4 : 8;
   double *fx = s.fx, *fy = s.fy, *fz = s.fz, *mx = s.mx, *my = s.my, *mz = s.mz, *size = s.square;
   const auto one = [&](uint32_t k) SCREE_BODY {
     const double sign = s.sign[k], x = fx[k], y = fy[k], z = fz[k];
-    if constexpr (Sum) size[k] = std::sqrt(x * x + y * y + z * z);
+    double square = x * x + y * y + z * z;
+    if constexpr (Sum) size[k] = std::sqrt(square);
     if constexpr (Spin) {
       // Torque of the force about each centre, per unit of arm; the same for both pieces.
       s.tx[k] = s.ny[k] * z - s.nz[k] * y;
       s.ty[k] = s.nz[k] * x - s.nx[k] * z;
       s.tz[k] = s.nx[k] * y - s.ny[k] * x;
       if constexpr (Moment) {
+        square += mx[k] * mx[k] + my[k] * my[k] + mz[k] * mz[k];
         mx[k] *= sign;
         my[k] *= sign;
         mz[k] *= sign;
@@ -194,9 +196,11 @@ SCREE_STAGE void scatter(uint32_t n, std::size_t first_row, double* slice, Scrat
     fx[k] = sign * x;
     fy[k] = sign * y;
     fz[k] = sign * z;
+    return static_cast<int>(!(square <= largest_square));
   };
-#pragma omp simd
-  for (uint32_t k = 0; k < n; ++k) one(k);
+  int useless = 0;
+#pragma omp simd reduction(| : useless)
+  for (uint32_t k = 0; k < n; ++k) useless |= one(k);
   for (uint32_t k = 0; k < n; ++k) {
     double* a = slice + (s.row[k] - first_row) * stride;
     double* b = slice + (s.where[k] & target::record_mask) * stride;
@@ -230,6 +234,7 @@ SCREE_STAGE void scatter(uint32_t n, std::size_t first_row, double* slice, Scrat
       b[5] -= arm_j * tz;
     }
   }
+  return useless != 0;
 }
 
 // One struct of static functions per instruction set; the macro is the only way to put the attribute on each.
@@ -245,8 +250,8 @@ SCREE_STAGE void scatter(uint32_t n, std::size_t first_row, double* slice, Scrat
       return geometry<S, T>(b, n, dt, limit, s);                                                               \
     }                                                                                                          \
     template <bool L, bool S, bool M, bool F>                                                                  \
-    TARGET static void scatter_stage(uint32_t n, std::size_t first, double* slice, Scratch& s) {               \
-      scatter<L, S, M, F>(n, first, slice, s);                                                                 \
+    TARGET static bool scatter_stage(uint32_t n, std::size_t first, double* slice, Scratch& s) {               \
+      return scatter<L, S, M, F>(n, first, slice, s);                                                          \
     }                                                                                                          \
     static constexpr StageTable table() {                                                                      \
       return {{filter_stage<false>, filter_stage<true>},                                                       \

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <limits>
 
 #include "core/contact/scratch.hpp"
 #include "core/world/balls.hpp"
@@ -33,8 +35,13 @@ using FilterStage = uint32_t (*)(const BallView&, const FilterInput&, Cursor&, u
                                  uint32_t* drops, uint32_t& dropped);
 /// From separations to everything a law reads. True when an overlap exceeds limit times the smaller radius.
 using GeometryStage = bool (*)(const BallView&, uint32_t n, double dt, double overlap_limit, Scratch&);
-/// Adds the forces of the batch to the records of a block, row by row.
-using ScatterStage = void (*)(uint32_t n, std::size_t first_row, double* slice, Scratch&);
+/// Forces beyond this are as useless as those that are no number: their squares are none.
+constexpr double largest_square = std::numeric_limits<double>::max();
+inline bool usable(const std::array<double, 3>& v) { return v[0] * v[0] + v[1] * v[1] + v[2] * v[2] <= largest_square; }
+
+/// Adds the forces of the batch to the records of a block, row by row. True when a force or moment is no usable number:
+/// not finite, or so large that its square is not.
+using ScatterStage = bool (*)(uint32_t n, std::size_t first_row, double* slice, Scratch&);
 
 /// The stages of one instruction set. All sets give the same bits.
 struct StageTable {

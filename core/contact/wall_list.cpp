@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/crash_note.hpp"
 #include "core/contact/run_law.hpp"
 #include "core/contact/slices.hpp"
 #include "core/contact/wall_touches.hpp"
@@ -111,7 +112,12 @@ bool geometry(WallList& list, const WallPass& pass, const WallTouches& touches, 
   return beyond;
 }
 
-void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, Scratch& s) {
+void load_state(const WallList& list, std::size_t words, std::size_t first, uint32_t n, Scratch& s) {
+  for (std::size_t w = 0; w < words; ++w)
+    for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[(first + k) * words + w];
+}
+
+void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, Scratch& s, WallExcess& excess) {
   const BallView& b = *pass.balls;
   const bool spin = pass.stride == Slices::with_spin && !pass.rule->normal_only();
   const bool moment = spin && (pass.rule->needs & SCREE_GIVES_MOMENT) != 0;
@@ -120,6 +126,8 @@ void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n
     double* a = pass.slice + (i - pass.first_row) * pass.stride;
     const V force{s.fx[k], s.fy[k], s.fz[k]}, normal{s.nx[k], s.ny[k], s.nz[k]};
     const V own = moment ? V{s.mx[k], s.my[k], s.mz[k]} : V{};
+    if (excess.slot < 0 && !usable(force)) excess = {static_cast<int64_t>(first + k), "force", force, 0};
+    if (excess.slot < 0 && !usable(own)) excess = {static_cast<int64_t>(first + k), "moment", own, 0};
     const V torque = cross(normal, force);
     const V point{b.x[i] + s.arm_i[k] * normal[0], b.y[i] + s.arm_i[k] * normal[1], b.z[i] + s.arm_i[k] * normal[2]};
     const V lever{point[0] - pass.wall->centre[0], point[1] - pass.wall->centre[1], point[2] - pass.wall->centre[2]};
@@ -186,29 +194,37 @@ std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, s
   return near;
 }
 
-int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
+WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
   thread_local WallTouches touches;
   list.force = list.moment = {};
   list.report.clear();
   touches.find(*pass.wall, *pass.balls, list.candidates, 1, pass.rule->reach);
   carry_over(list, touches, pass);
   const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
-  int64_t worst = -1;
+  WallExcess excess;
   for (std::size_t first = 0; first < list.slots.size(); first += Scratch::size) {
     const auto n = static_cast<uint32_t>(std::min<std::size_t>(Scratch::size, list.slots.size() - first));
-    if (geometry(list, pass, touches, first, n, s) && worst < 0)
-      for (uint32_t k = 0; k < n && worst < 0; ++k)
-        if (-s.gap[k] > pass.overlap_limit * s.r1[k]) worst = static_cast<int64_t>(first + k);
-    for (std::size_t w = 0; w < words; ++w)
-      for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[(first + k) * words + w];
+    if (geometry(list, pass, touches, first, n, s) && excess.slot < 0)
+      for (uint32_t k = 0; k < n && excess.slot < 0; ++k)
+        if (-s.gap[k] > pass.overlap_limit * s.r1[k])
+          excess = {static_cast<int64_t>(first + k), nullptr, {}, -s.gap[k]};
+    load_state(list, words, first, n, s);
     for (std::size_t v = 0; v < varying; ++v)
       for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[(first + k) * varying + v];
-    run_law(*pass.rule, n, pass.dt, s);
+    const auto id = [&](uint32_t k) { return pass.id[list.slots[first + k].row]; };
+    crash_note = {pass.rule->model_name.c_str(), pass.rule->name.c_str(), pass.cycle, list.block, id(0), 0,
+                  pass.wall->name.c_str()};
+    if (!run_law(*pass.rule, n, pass.dt, s)) {
+      load_state(list, words, first, n, s);
+      const uint32_t k = find_thrower(*pass.rule, n, pass.dt, s);
+      const std::string pieces = "ball " + std::to_string(k == n ? 0 : id(k)) + " and wall '" + pass.wall->name + "'";
+      refuse_thrower(*pass.rule, k == n ? "" : pieces, pass.cycle);
+    }
     for (std::size_t w = 0; w < words; ++w)
       for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
-    scatter(list, pass, first, n, s);
+    scatter(list, pass, first, n, s, excess);
   }
-  return worst;
+  return excess;
 }
 
 }  // namespace scree::core

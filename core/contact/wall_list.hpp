@@ -41,9 +41,17 @@ struct WallPass {
   std::size_t stride;
   double dt, overlap_limit;
   bool sums, report;
+  uint64_t cycle;
 };
-/// Runs all contacts of the list; returns the index of a slot whose overlap is beyond the limit, or -1.
-int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& scratch);
+/// A wall contact that broke a guard: its overlap is beyond the limit, or what its law gave is useless (see Excess).
+struct WallExcess {
+  int64_t slot = -1;  ///< -1: none
+  const char* useless = nullptr;
+  std::array<double, 3> value{};
+  double overlap = 0;  ///< m
+};
+/// Runs all contacts of the list; returns the first that broke a guard.
+WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& scratch);
 
 /// The rule's properties changed: its contacts get them anew, their state stays where it still has the same words.
 void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& balls, const Wall& wall);

@@ -13,7 +13,7 @@ void WallTouches::resize(std::size_t touches) {
 // Grows the columns until all touches fit.
 void WallTouches::ask(const Wall& wall, std::size_t rows) {
   if (ball.size() < rows + 64) resize(rows + 64);
-  for (;;) {
+  for (int again = 0;; ++again) {
     const scree_touches touches{sizeof(scree_touches),
                                 static_cast<uint32_t>(ball.size()),
                                 ball.data(),
@@ -22,9 +22,9 @@ void WallTouches::ask(const Wall& wall, std::size_t rows) {
                                 ny.data(),
                                 nz.data(),
                                 distance.data()};
-    count = wall.table->touch(wall.geometry.get(), static_cast<uint32_t>(rows), x_.data(), y_.data(), z_.data(),
-                              reach_.data(), &touches);
+    count = wall.touch(static_cast<uint32_t>(rows), x_.data(), y_.data(), z_.data(), reach_.data(), touches);
     if (count <= ball.size()) return;
+    if (again > 0) wall.refuse("gives more touches each time it is asked for the same balls");
     resize(count);
   }
 }

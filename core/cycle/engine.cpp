@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/crash_note.hpp"
+
 namespace scree::core {
 
 namespace {
 
 std::string number(double value) {
   char text[40];
-  std::snprintf(text, sizeof text, "%.6g", value);
+  std::snprintf(text, sizeof text, "%.6g", value + 0.0);  // no -0
   return text;
 }
 
@@ -173,16 +175,35 @@ void Engine::forces() {
   contact_updates_ += contacts.listed();
   forces_current_ = true;
   if (!excess.found) return;
+  stop_excess(excess);
+}
+
+void Engine::stop_excess(const Excess& excess) const {
   const std::string pair = excess.id2 != 0
                                ? "balls " + std::to_string(excess.id1) + " and " + std::to_string(excess.id2)
                                : "ball " + std::to_string(excess.id1) + " and wall '" + excess.wall + "'";
-  throw NumericalStop("cycle " + std::to_string(clock.cycle) + ": " + pair + " overlap by " + number(excess.overlap) +
-                          " m, " + number(excess.overlap / excess.radius) + " of the smaller radius (limit " +
-                          number(overlap_limit) + "), under rule '" + excess.rule + "' (contact model '" +
-                          excess.plugin + "'); the step is " + number(clock.dt) + " s, the stable limit " +
-                          number(step.bound().step) +
-                          " s: use stiffer contacts, slower motion or a smaller 'timestep', or raise 'overlap_limit'",
-                      {excess.id1, excess.id2}, NumericalStop::State::whole);
+  const std::string when = "cycle " + std::to_string(clock.cycle) + ": ",
+                    rule = "under rule '" + excess.rule + "' (contact model '" + excess.plugin + "')",
+                    steps = "; the step is " + number(clock.dt) + " s, the stable limit " + number(step.bound().step) +
+                            " s: ";
+  const std::vector<uint64_t> balls_to_see =
+      excess.id2 != 0 ? std::vector<uint64_t>{excess.id1, excess.id2} : std::vector<uint64_t>{excess.id1};
+  if (excess.useless != nullptr) {
+    const auto& v = excess.value;
+    const bool finite = std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+    const std::string unit = std::string(excess.useless) == "force" ? " N" : " N m";
+    throw NumericalStop(when + "the " + excess.useless + " between " + pair + " " + rule +
+                            (finite ? " is too large to compute with" : " is not a finite number") + ", (" +
+                            number(v[0]) + ", " + number(v[1]) + ", " + number(v[2]) + ")" + unit + steps +
+                            "check the properties of this rule and look at the balls in failure.csv; if both are "
+                            "sound, report it to the plug-in's author",
+                        balls_to_see);
+  }
+  throw NumericalStop(when + pair + " overlap by " + number(excess.overlap) + " m, " +
+                          number(excess.overlap / excess.radius) + " of the smaller radius (limit " +
+                          number(overlap_limit) + "), " + rule + steps +
+                          "use stiffer contacts, slower motion or a smaller 'timestep', or raise 'overlap_limit'",
+                      balls_to_see, NumericalStop::State::whole);
 }
 
 MotionInput Engine::motion_input() {
@@ -200,17 +221,10 @@ void Engine::stop_not_finite() {
     if (!std::isfinite(sum)) worst = row;
   }
   const uint64_t id = worst < balls.size() ? balls.id()[worst] : 0;
-  std::string who = "an applied force or a process";
-  if (worst < balls.size()) {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += contacts.slices().record(worst)[c];
-    if (!std::isfinite(sum)) {
-      who = "a contact model (";
-      for (const BoundRule& rule : contacts.book.rules)
-        if (rule.model != nullptr) who += (who.back() == '(' ? "" : ", ") + rule.model_name;
-      who += ")";
-    }
-  }
+  // What laws give has been checked contact by contact.
+  std::string who = "an applied force, too large a force for the mass";
+  for (const auto* order : {&adders_, &scalers_})
+    for (const Process* process : *order) who += ", process '" + process->name + "'";
   throw NumericalStop(
       "cycle " + std::to_string(clock.cycle) + ": the force, position or velocity of ball " + std::to_string(id) +
           " is not a finite number; it came from " + who + "; the step is " + number(clock.dt) +
@@ -253,9 +267,19 @@ void Engine::run_model_processes() {
                          process.state.data(), host.host()};
     char why[512] = "";
     const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
-    if (process.table->step(process.object.get(), &now, &refusal) != 0)
+    crash_note = {process.plugin.c_str(), process.name.c_str(), clock.cycle};
+    const int failed = process.table->step(process.object.get(), &now, &refusal);
+    crash_note = CrashNote{};
+    if (failed != 0)
       throw Refusal(Exit::plugin, "process '" + process.name + "' stopped the run at cycle " +
                                       std::to_string(clock.cycle) + ": " + why);
+    if (const Wall* wall = host.spoilt_wall(); wall != nullptr)
+      throw NumericalStop("cycle " + std::to_string(clock.cycle) + ": process '" + process.name + "' gave wall '" +
+                              wall->name +
+                              "' a velocity or spin that is not a finite number: check its settings, or report it to "
+                              "the author of plug-in '" +
+                              process.plugin + "'",
+                          {});
   }
   if (any) host.take_views();
 }

@@ -113,6 +113,7 @@ class Engine {
   double exact_travel();
   void drift_walls();
   void run_model_processes();
+  [[noreturn]] void stop_excess(const Excess& excess) const;
   void stop_not_finite();
   void check_speed(double fastest);
   /// How many balls there are, and the sum of their ids.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/crash_note.hpp"
 #include "core/plugin/table_check.hpp"
 
 namespace scree::core {
@@ -115,6 +116,7 @@ void run_rows(const MotionInput& input, const Process& process, std::size_t firs
   double* words[3 * most_needs];
   std::size_t count = 0;
   const auto give = [&](double* word) { words[count++] = word; };
+  crash_note = {process.plugin.c_str(), process.name.c_str(), input.cycle, first / block_rows};
   for (uint32_t k = 0; k < process.table->need_count; ++k) {
     const uint32_t column = process.table->needs[k].column;
     const auto three = [&](Column from) {
@@ -157,8 +159,10 @@ void run_rows(const MotionInput& input, const Process& process, std::size_t firs
   }
   const scree_rows rows{
       sizeof(scree_rows), static_cast<uint32_t>(n), first, input.cycle, input.time, input.dt, words, sum};
-  for (int isa = input.isa; isa >= 0; --isa)
-    if (process.table->rows[isa] != nullptr) return process.table->rows[isa](process.object.get(), &rows);
+  int isa = input.isa;
+  while (isa > 0 && process.table->rows[isa] == nullptr) --isa;
+  process.table->rows[isa](process.object.get(), &rows);
+  crash_note = CrashNote{};
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/cycle/process.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree::core {
 
@@ -47,6 +48,13 @@ void ProcessHost::take_views() {
       walls_[k].velocity[c] = views_[k].velocity[c];
       walls_[k].spin[c] = views_[k].spin[c];
     }
+}
+
+const Wall* ProcessHost::spoilt_wall() const {
+  for (std::size_t k = 0; k < views_.size() && k < walls_.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (!std::isfinite(views_[k].velocity[c]) || !std::isfinite(views_[k].spin[c])) return &walls_[k];
+  return nullptr;
 }
 
 int ProcessHost::wall(void* self, const char* name, uint32_t* handle) {

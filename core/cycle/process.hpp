@@ -15,6 +15,7 @@ namespace scree::core {
 /// A process of the scene: a plug-in's object, what it saves and what it published.
 struct Process {
   std::string name;
+  std::string plugin;  ///< for messages
   const scree_process* table = nullptr;
   std::shared_ptr<void> object;
   std::vector<double> state;  ///< saved words
@@ -34,8 +35,9 @@ class ProcessHost {
  public:
   ProcessHost(Balls& balls, std::vector<Wall>& walls);
   const scree_host* host() const { return &host_; }
-  void fill_views();  ///< from walls, before a step
-  void take_views();  ///< velocities back to walls, after it
+  void fill_views();                ///< from walls, before a step
+  void take_views();                ///< velocities back to walls, after it
+  const Wall* spoilt_wall() const;  ///< one whose velocity in the views is not finite; null: none
   std::map<std::string, double> published;
 
  private:

@@ -177,10 +177,10 @@ const Component& Catalogue::open(Kind kind, const std::string& name) {
                                     "': " + first->file.string() + " and " + rival->second.front().string() +
                                     ": remove one, or choose one by giving its folder with --plugins");
   Loaded loaded = load_component(kind, name, first->file);
-  if (loaded.changed_float_mode)
-    impl_->warnings.push_back(first->file.string() +
-                              ": changed the floating-point mode when it was loaded, which was put back: build it "
-                              "without -ffast-math");
+  for (const std::string& remark : loaded.remarks) {
+    impl_->warnings.push_back(first->file.string() + ": " + remark);
+    if (warn) warn(impl_->warnings.back());
+  }
   impl_->opened.push_back(std::make_unique<Component>(std::move(loaded.component)));
   return *(impl_->by_name[key] = impl_->opened.back().get());
 }

@@ -2,6 +2,7 @@
 #include <scree/abi.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,7 +68,9 @@ class Catalogue {
   const std::vector<Found>& found() const;          ///< every file met, in search order; nothing is opened
   std::vector<std::string> names(Kind kind) const;  ///< for suggestions
   std::vector<const Component*> opened() const;     ///< in order of opening
-  std::vector<std::string> warnings() const;        ///< one per shadowed file
+  /// What is worth telling so far: shadowed files, libraries that did more than they should when they were opened.
+  std::vector<std::string> warnings() const;
+  std::function<void(const std::string&)> warn;  ///< called with each warning that comes when a library is opened
 
  private:
   struct Impl;

@@ -12,6 +12,7 @@
 #include "core/plugin/elf_check.hpp"
 #include "core/plugin/header_check.hpp"
 #include "core/plugin/sha256.hpp"
+#include "core/plugin/stdout_catch.hpp"
 #include "core/plugin/table_check.hpp"
 #include "core/plugin/trust.hpp"
 
@@ -82,6 +83,7 @@ Loaded load_component(Kind kind, const std::string& name, const fs::path& file) 
   check_numbers(check_elf(bytes, real), real);
 
   FloatMode mode;
+  StdoutCatch said;
   void* handle = open_library(real);
   bool changed = mode.restore();
   const auto* header = static_cast<const scree_plugin_header*>(dlsym(handle, "scree_plugin"));
@@ -92,7 +94,12 @@ Loaded load_component(Kind kind, const std::string& name, const fs::path& file) 
   check_table(kind, name, table, real);
 
   Loaded loaded;
-  loaded.changed_float_mode = changed;
+  if (changed)
+    loaded.remarks.push_back(
+        "changed the floating-point mode when it was loaded, which was put back: build it without -ffast-math");
+  if (const std::string text = said.take(); !text.empty())
+    loaded.remarks.push_back("wrote to stdout when it was loaded, which was kept out of the results ('" + text +
+                             "'): remove what writes there");
   loaded.component = {kind, entry.name, entry.version, entry.doc ? entry.doc : "", real, sha256(bytes), table};
   return loaded;
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/plugin/catalogue.hpp"
 
@@ -11,7 +12,7 @@ namespace scree::core {
 /// A component that passed every check, with what is worth telling about its loading.
 struct Loaded {
   Component component;
-  bool changed_float_mode = false;  ///< its start-up code changed the floating-point mode, which was put back
+  std::vector<std::string> remarks;  ///< what its start-up code did that it should not, and what was done about it
 };
 
 /// Checks the file, opens it and checks what it holds. None of its code runs before the file's own checks have passed.

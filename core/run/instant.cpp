@@ -61,8 +61,7 @@ std::vector<double> wall_gaps(const Engine& engine, const WallList& list) {
                                 ball.data(),           patch.data(),
                                 normal[0].data(),      normal[1].data(),
                                 normal[2].data(),      distance.data()};
-    count = wall.table->touch(wall.geometry.get(), static_cast<uint32_t>(n), at[0].data(), at[1].data(), at[2].data(),
-                              reach.data(), &touches);
+    count = wall.touch(static_cast<uint32_t>(n), at[0].data(), at[1].data(), at[2].data(), reach.data(), touches);
     if (count == 0) break;
   }
   std::vector<double> gaps(list.slots.size(), 0.0);

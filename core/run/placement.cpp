@@ -106,8 +106,7 @@ bool Placement::free_of_walls(const scree_ball& b) const {
     uint32_t which, patch;
     double nx, ny, nz, distance;
     const scree_touches touches{sizeof(scree_touches), 1, &which, &patch, &nx, &ny, &nz, &distance};
-    if (wall.table->touch(wall.geometry.get(), 1, &local[0], &local[1], &local[2], &b.radius, &touches) > 0)
-      return false;
+    if (wall.touch(1, &local[0], &local[1], &local[2], &b.radius, touches) > 0) return false;
   }
   return true;
 }

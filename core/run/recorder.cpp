@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/crash_note.hpp"
+
 namespace scree::core {
 
 Recorder::Recorder(Simulation& simulation, Quantities& quantities, const Record& record, OutputFiles& files)
@@ -71,8 +73,10 @@ void Recorder::write() {
   open();
   if ((content_.wants & SCREE_WANTS_WALLS) != 0) box_.follow(simulation_.engine);
   const Frame frame(simulation_, quantities_, content_, static_cast<uint32_t>(frames_), box_);
-  if (table_.frame(writer_.get(), &frame.abi(), &abi_) != 0)
-    return fail("could not write its frame of cycle " + std::to_string(clock.cycle));
+  crash_note = {record_.writer.component->name.c_str(), record_.name.c_str(), clock.cycle};
+  const int failed = table_.frame(writer_.get(), &frame.abi(), &abi_);
+  crash_note = CrashNote{};
+  if (failed != 0) return fail("could not write its frame of cycle " + std::to_string(clock.cycle));
   ++frames_;
   last_cycle_ = clock.cycle;
   if (record_.every.time)

@@ -98,6 +98,10 @@ struct Binding {
     if (table->derive == nullptr) return;
     const scree_pair pair{sizeof(scree_pair), 0, birth.r1, birth.r2, birth.mass};
     table->derive(words, form, &pair);
+    // The SDK's way to say that the author's code threw, which `derive` has no other means to tell.
+    if (std::all_of(words, words + base.size(), [](double word) { return std::isnan(word); }))
+      refuse("its 'derive' threw an exception for a contact of radii " + std::to_string(birth.r1) + " and " +
+             std::to_string(birth.r2) + " m: report it to the plug-in's author");
   }
 
   void fill(const Birth& birth, double* words) const {

@@ -88,6 +88,7 @@ RunResult resume_run(const std::string& path, Catalogue& catalogue, const RunOpt
   OutputFolder folder = OutputFolder::resume(path);
   const CheckpointFiles checkpoints(path);
   const ArchiveReader archive = previous ? checkpoints.open_previous() : checkpoints.open_latest();
+  set_last_checkpoint(archive.path());
   Scene scene = saved_scene(archive, catalogue, options.allow_plugin_change, options.include_dirs);
   auto simulation = make(std::move(scene), catalogue, options);
   load_state(*simulation, archive);

@@ -25,6 +25,7 @@ struct RunOptions {
   std::string stage;                      ///< stop after this stage; "": run all
   std::string from;                       ///< a saved state to begin from instead of the scene's own start
   double time_limit = 0;                  ///< s of wall time, 0: none; then exit 75, resumable
+  double patience = 0;                    ///< s that a cycle may take at least before it counts as endless; 0: a minute
   bool allow_plugin_change = false;       ///< resume although a plug-in is not the one that was saved with
   std::vector<std::string> include_dirs;  ///< resume: where the scene finds files besides its own folder
 };

@@ -1,5 +1,7 @@
 #include "core/run/session.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -53,8 +55,11 @@ void Session::complete(const Needs& extra) {
     if (recorder->due()) needs |= recorder->needs();
   engine.sums_wanted = needs.sums;
   engine.report_wanted = needs.report;
-  engine.forces();
-  quantities_.follow();
+  {
+    const Watchdog::Section watched(*watchdog_, engine.clock.cycle);
+    engine.forces();
+    quantities_.follow();
+  }
   for (const auto& recorder : recorders_)
     if (recorder->due()) recorder->write();
 }
@@ -136,7 +141,10 @@ Session::Ending Session::run_action(const Stage& stage, const RunAction& action)
       }
       if (since(saved_) > save_every) save_checkpoint();
     }
-    engine.advance();
+    {
+      const Watchdog::Section watched(*watchdog_, engine.clock.cycle);
+      engine.advance();
+    }
     progress_.tick(engine.clock.cycle, engine.clock.time(), engine.balls.size());
   }
   loop_seconds_ += since(begun);
@@ -164,6 +172,7 @@ Session::Ending Session::stages() {
   const auto& all = simulation_->scene.stages;
   if (position.stage == 0 && position.action == 0 && !position.inside) {
     complete(final_needs_);
+    const Watchdog::Section watched(*watchdog_, simulation_->engine.clock.cycle);
     for (const std::string& doubt : doubts(*simulation_)) log::warning("{}", doubt);
   }
   report_overlaps();
@@ -252,7 +261,19 @@ void Session::save_named(const SaveAction& action) {
   io_failed_ = true;
 }
 
+void Session::end_stuck(const std::string& what, bool plugin) {
+  const std::string checkpoint = last_checkpoint();
+  log::error("{}; nothing was saved now, {}: {}; a longer wait is asked for with --patience", what,
+             checkpoint.empty() ? "there is no checkpoint" : "the last good checkpoint is " + checkpoint,
+             plugin ? "report it to the plug-in's author" : "please report it with the scene");
+  folder_.files().flush();
+  log::close_file();
+  ::_exit(static_cast<int>(plugin ? Exit::plugin : Exit::internal));
+}
+
 RunResult Session::run() {
+  watchdog_ = std::make_unique<Watchdog>(options_.patience,
+                                         [this](const std::string& what, bool plugin) { end_stuck(what, plugin); });
   try {
     const Ending ending = stages();
     if (ending == Ending::done) {
@@ -277,6 +298,7 @@ RunResult Session::run() {
     ended_ = Exit::memory;
     message_ = "out of memory: use fewer balls, or record less";
   }
+  watchdog_.reset();
   progress_.finish();
   folder_.files().flush();
   io_failed_ = io_failed_ || folder_.files().failed();

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/watchdog.hpp"
 #include "core/run/checkpoint_files.hpp"
 #include "core/run/condition.hpp"
 #include "core/run/output_folder.hpp"
@@ -46,6 +47,8 @@ class Session {
   void report_overlaps();
   void write_failure(const NumericalStop& stop);
   void save_stopped(const NumericalStop& stop);
+  /// A cycle does not end: says so, closes what is written, and ends the process. On the watchdog's thread.
+  [[noreturn]] void end_stuck(const std::string& what, bool plugin);
   Summary summary() const;
   double seconds() const;
 
@@ -56,7 +59,8 @@ class Session {
   std::vector<std::unique_ptr<Recorder>> recorders_;
   CheckpointFiles checkpoints_;
   Progress progress_;
-  Needs final_needs_;  ///< of everything that may be read where an action ends
+  std::unique_ptr<Watchdog> watchdog_;  ///< while the stages run
+  Needs final_needs_;                   ///< of everything that may be read where an action ends
   std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point saved_ = started_;
   double loop_seconds_ = 0;

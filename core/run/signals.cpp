@@ -10,6 +10,7 @@
 #include <ctime>
 
 #include "core/base/crash_note.hpp"
+#include "core/base/safe_text.hpp"
 
 namespace scree::core {
 
@@ -39,33 +40,14 @@ void ask_to_stop(int signal) {
 
 void ask_to_save(int) { requests::save.store(1); }
 
-/// Text for write(2): no allocation, no locale, no locks.
-class SafeText {
- public:
-  SafeText& operator<<(const char* text) {
-    while (*text != '\0' && size_ < sizeof text_) text_[size_++] = *text++;
-    return *this;
+void print(const SafeText& text) {
+  const std::string_view all = text.view();
+  for (size_t done = 0; done < all.size();) {
+    const ssize_t n = ::write(STDERR_FILENO, all.data() + done, all.size() - done);
+    if (n <= 0 && errno != EINTR) return;
+    if (n > 0) done += static_cast<size_t>(n);
   }
-  SafeText& operator<<(uint64_t number) {
-    char digits[21];
-    int k = 20;
-    digits[k] = '\0';
-    do digits[--k] = static_cast<char>('0' + number % 10);
-    while ((number /= 10) != 0);
-    return *this << digits + k;
-  }
-  void print() const {
-    for (size_t done = 0; done < size_;) {
-      const ssize_t n = ::write(STDERR_FILENO, text_ + done, size_ - done);
-      if (n <= 0 && errno != EINTR) return;
-      if (n > 0) done += static_cast<size_t>(n);
-    }
-  }
-
- private:
-  char text_[2048];
-  size_t size_ = 0;
-};
+}
 
 const char* name_of(int signal) {
   switch (signal) {
@@ -85,23 +67,19 @@ const char* name_of(int signal) {
 }
 
 void report_crash(int signal) {
-  const CrashNote note = crash_note;
+  const CrashNote note = crash_note.read();
   SafeText text;
-  text << "\nscree: crashed (" << name_of(signal) << ")";
-  if (note.plugin != nullptr) {
-    text << " in plug-in '" << note.plugin << "'";
-    if (note.rule != nullptr) text << ", used as '" << note.rule << "'";
-    text << ", cycle " << note.cycle << ", block " << note.block;
-    if (note.id1 != 0) text << ", first contact of the batch: balls " << note.id1 << " and " << note.id2;
-  } else {
-    text << " in the kernel: please report it with the scene";
-  }
+  text << "\nscree: crashed (" << name_of(signal) << ") in ";
+  if (note.plugin != nullptr)
+    text << note;
+  else
+    text << "the kernel: please report it with the scene";
   const char* checkpoint = checkpoint_text[checkpoint_slot.load()];
   if (*checkpoint != '\0')
     text << "; nothing was saved now, the last good checkpoint is " << checkpoint << "\n";
   else
     text << "; there is no checkpoint\n";
-  text.print();
+  print(text);
   ::signal(signal, SIG_DFL);
   ::raise(signal);
 }
@@ -160,13 +138,18 @@ void install_signal_handlers() {
   handle(SIGXFSZ, SIG_IGN, 0);
 }
 
-void use_crash_stack() { static thread_local CrashStack stack; }
+void use_crash_stack() {
+  static thread_local CrashStack stack;
+  show_crash_note();
+}
 
 void install_crash_handler() {
   use_crash_stack();
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     handle(signal, report_crash, SA_ONSTACK | SA_NODEFER | static_cast<int>(SA_RESETHAND));
 }
+
+std::string last_checkpoint() { return checkpoint_text[checkpoint_slot.load()]; }
 
 void set_last_checkpoint(const std::string& path) {
   const int slot = 1 - checkpoint_slot.load();

@@ -30,10 +30,13 @@ void install_signal_handlers();
 /// checkpoint, then dies of the same signal, so that a core file and the shell see the truth. Nothing is saved: the
 /// state may be broken. Call once, at start. [one thread]
 void install_crash_handler();
-/// Gives the calling thread a stack of its own for the crash handler, without which a stack overflow dies in silence.
+/// Gives the calling thread a stack of its own for the crash handler, without which a stack overflow dies in silence,
+/// and lets the watchdog read what it is doing.
 /// install_crash_handler does it for its thread; others call it first thing (Team's on_start).
 void use_crash_stack();
 /// What the crash message names as the file to go on from; "" for none. Cut at 1000 bytes. [one thread]
 void set_last_checkpoint(const std::string& path);
+/// What was set; "" for none. [any thread]
+std::string last_checkpoint();
 
 }  // namespace scree::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/crash_note.hpp"
 #include "core/base/heap.hpp"
 #include "core/run/placement.hpp"
 #include "core/run/rule_binding.hpp"
@@ -57,6 +58,7 @@ void Simulation::prepare() {
 void Simulation::add_wall(const WallUse& use) {
   Wall wall;
   wall.name = use.name;
+  wall.plugin = use.wall.component->name;
   wall.table = &use.wall.component->wall();
   wall.geometry = make_object(wall.table->object, use.wall, "wall '" + use.name + "'");
   wall.velocity = use.velocity;
@@ -78,7 +80,9 @@ void Simulation::add_balls(const BallSet& set) {
   const scree_sink sink = placement.sink();
   char why[1024] = "";
   const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
+  crash_note = {set.generator.component->name.c_str(), set.name.c_str()};
   const int failed = generator.generate(object.get(), &sink, &refusal);
+  crash_note = CrashNote{};
   const std::string where = set.generator.place.text() + ": error: balls '" + set.name + "': ";
   if (!placement.refusal().empty()) throw SceneErrors({where + placement.refusal()});
   if (failed != 0) throw SceneErrors({where + why});
@@ -88,6 +92,7 @@ void Simulation::add_balls(const BallSet& set) {
 void Simulation::add_process(const ProcessUse& use) {
   Process process;
   process.name = use.name;
+  process.plugin = use.process.component->name;
   process.table = &use.process.component->process();
   process.object = make_object(process.table->object, use.process, "process '" + use.name + "'");
   process.state.assign(process.table->state_words, 0.0);

@@ -1,6 +1,10 @@
 #include "core/world/wall.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "core/base/crash_note.hpp"
+#include "core/base/error.hpp"
 
 namespace scree::core {
 
@@ -19,8 +23,36 @@ V rotated(const std::array<double, 4>& q, double sign, const V& v) {
           v[2] + 2 * (q[0] * once[2] + twice[2])};
 }
 
+// A block of balls with a thousand touches each: more is a count that nobody meant.
+constexpr uint32_t most_touches = 1u << 20;
+
 double size(const V& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 }  // namespace
+
+void Wall::refuse(const std::string& does) const {
+  throw Refusal(Exit::plugin, "wall '" + name + "' (plug-in '" + plugin + "') " + does +
+                                  ": report it to the plug-in's author, or use another wall");
+}
+
+uint32_t Wall::touch(uint32_t n, const double* x, const double* y, const double* z, const double* reach,
+                     const scree_touches& out) const {
+  const CrashNote before = crash_note.read();
+  crash_note = {plugin.c_str(), name.c_str(), before.cycle, before.block};
+  const uint32_t count = table->touch(geometry.get(), n, x, y, z, reach, &out);
+  crash_note = before;
+  if (count == UINT32_MAX) refuse("threw an exception while it was asked for touches");
+  if (count > most_touches)
+    refuse("gives " + std::to_string(count) + " touches for " + std::to_string(n) + " balls, more than any surface");
+  for (uint32_t k = 0; k < std::min(count, out.capacity); ++k) {
+    if (out.ball[k] >= n)
+      refuse("gives a touch of ball " + std::to_string(out.ball[k]) + " of " + std::to_string(n) +
+             " that it was asked about");
+    const double square = out.nx[k] * out.nx[k] + out.ny[k] * out.ny[k] + out.nz[k] * out.nz[k];
+    if (!(std::fabs(square - 1) <= 1e-6)) refuse("gives a normal that is not of length 1");
+    if (!std::isfinite(out.distance[k])) refuse("gives a distance that is not a finite number");
+  }
+  return count;
+}
 
 std::array<double, 3> Wall::to_frame(const V& point) const {
   V relative{point[0] - centre[0], point[1] - centre[1], point[2] - centre[2]};

@@ -14,6 +14,7 @@ namespace scree::core {
 /// Walls have no mass; their velocity is prescribed.
 struct Wall {
   std::string name;
+  std::string plugin;  ///< for messages
   const scree_wall* table = nullptr;
   std::shared_ptr<void> geometry;         ///< the plug-in's object
   std::map<std::string, double> contact;  ///< own contact properties, SI
@@ -26,6 +27,12 @@ struct Wall {
   uint64_t contacts = 0;                     ///< active ones at the last force pass
   double stiffness = 0;                      ///< sum over its listed contacts, N/m
 
+  /// Asks the geometry for the touches of n balls (abi.h), and checks what it wrote: throws Refusal (exit 4) when it
+  /// threw, or gave what no surface can. [any thread]
+  uint32_t touch(uint32_t n, const double* x, const double* y, const double* z, const double* reach,
+                 const scree_touches& out) const;
+  /// Throws Refusal (exit 4): this wall `does` something that its plug-in must not do.
+  [[noreturn]] void refuse(const std::string& does) const;
   bool turned() const { return turn[0] != 1.0; }
   /// Centre of a ball in the geometry's frame.
   std::array<double, 3> to_frame(const std::array<double, 3>& point) const;

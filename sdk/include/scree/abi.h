@@ -196,7 +196,7 @@ typedef struct scree_wall {
   scree_object object;
   /* [any thread] all touches of n balls whose surface distance is below reach[i] (a distance of the centre).
    * Returns how many there are; when more than out->capacity, only the first capacity are written and the host asks
-   * again. */
+   * again. UINT32_MAX when the author's code threw. */
   uint32_t (*touch)(const void* self, uint32_t n, const double* x, const double* y, const double* z,
                     const double* reach, const scree_touches* out);
   /* [one thread] polygons for pictures: calls polygon once per face with its corners; an unbounded face is cut to the

@@ -4,7 +4,8 @@
 ///
 ///     void ball(const Mass& mass, Force& force) const;
 ///         One free ball, once per cycle, after the contact forces are summed and before it moves. The parameters are
-///         the columns it needs (columns.hpp). [any thread], so it must not change the struct; it must not throw.
+///         the columns it needs (columns.hpp). [any thread], so it must not change the struct; it must not throw, which
+///         ends the program.
 ///     void rotation(const Spin& spin, Moment& moment) const;
 ///         The same, run only in scenes whose balls have a spin; a frictionless scene keeps neither spin nor moment.
 ///     void prepare(const Host& host);
@@ -95,16 +96,16 @@ SCREE_INLINE void rows(const void* self, const scree_rows* rows) {
   }
 }
 template <class T>
-__attribute__((flatten)) void rows_baseline(const void* self, const scree_rows* block) {
+__attribute__((flatten)) void rows_baseline(const void* self, const scree_rows* block) noexcept {
   rows<T>(self, block);
 }
 #if defined(__x86_64__)
 template <class T>
-__attribute__((target("arch=x86-64-v3"), flatten)) void rows_v3(const void* self, const scree_rows* block) {
+__attribute__((target("arch=x86-64-v3"), flatten)) void rows_v3(const void* self, const scree_rows* block) noexcept {
   rows<T>(self, block);
 }
 template <class T>
-__attribute__((target("arch=x86-64-v4"), flatten)) void rows_v4(const void* self, const scree_rows* block) {
+__attribute__((target("arch=x86-64-v4"), flatten)) void rows_v4(const void* self, const scree_rows* block) noexcept {
   rows<T>(self, block);
 }
 #endif

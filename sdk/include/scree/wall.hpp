@@ -72,9 +72,13 @@ uint32_t touch(const void* self, uint32_t n, const double* x, const double* y, c
                const scree_touches* out) {
   const T& wall = *static_cast<const T*>(self);
   Touches touches(*out);
-  for (uint32_t i = 0; i < n; ++i) {
-    touches.next_ball(i);
-    wall.touch(Vec3{x[i], y[i], z[i]}, reach[i], touches);
+  try {
+    for (uint32_t i = 0; i < n; ++i) {
+      touches.next_ball(i);
+      wall.touch(Vec3{x[i], y[i], z[i]}, reach[i], touches);
+    }
+  } catch (...) {
+    return UINT32_MAX;
   }
   return touches.count();
 }

@@ -22,6 +22,15 @@
 #ifndef NAME
 #define NAME "spring"
 #endif
+#ifndef VERSION
+#define VERSION "1.0.0"
+#endif
+#ifndef COMPONENT_SIZE
+#define COMPONENT_SIZE sizeof(scree_component)
+#endif
+#ifndef COMPONENTS
+#define COMPONENTS components
+#endif
 #ifndef COUNT
 #define COUNT 1
 #endif
@@ -30,6 +39,27 @@
 #endif
 #ifndef PROPERTY
 #define PROPERTY "kn"
+#endif
+#ifndef PROPERTY_SIZE
+#define PROPERTY_SIZE sizeof(scree_property)
+#endif
+#ifndef PROPERTIES
+#define PROPERTIES 1
+#endif
+#ifndef TYPE
+#define TYPE SCREE_NUMBER
+#endif
+#ifndef UNIT
+#define UNIT "N/m"
+#endif
+#ifndef HIGH
+#define HIGH 1e300
+#endif
+#ifndef LAW
+#define LAW law
+#endif
+#ifndef RULE_WORDS
+#define RULE_WORDS 1
 #endif
 #ifndef FALLBACK
 #define FALLBACK 1
@@ -53,12 +83,28 @@ int scree_test_function_that_does_not_exist(void);
 #ifdef START_CODE
 __attribute__((constructor)) static void start(void) { setenv("SCREE_TEST_STARTED", "yes", 1); }
 #endif
+#ifdef WRITES
+#include <stdio.h>
+__attribute__((constructor)) static void start(void) {
+  printf("hello from %s\n", NAME);
+  fflush(stdout);
+  printf("and again");
+}
+#endif
+#ifdef EVIDENCE
+#include <stdio.h>
+__attribute__((constructor)) static void start(void) {
+  const char* path = getenv("SCREE_TEST_EVIDENCE");
+  FILE* file = path != NULL ? fopen(path, "w") : NULL;
+  if (file != NULL) fclose(file);
+}
+#endif
 #ifdef FAST_MATH
 #include <xmmintrin.h>
 __attribute__((constructor)) static void start(void) { _mm_setcsr(_mm_getcsr() | 0x8040); }
 #endif
 
-static uint32_t law(const void* rule, const scree_batch* b) {
+__attribute__((unused)) static uint32_t law(const void* rule, const scree_batch* b) {
   const double kn = *(const double*)rule;
   for (uint32_t i = 0; i < b->n; ++i) b->fx[i] = -kn * b->gap[i];
 #ifdef NEEDS_SYMBOL
@@ -71,19 +117,19 @@ __attribute__((unused)) static void stiffness(const void* rule, const scree_batc
   for (uint32_t i = 0; i < b->n; ++i) out->normal[i] = *(const double*)rule;
 }
 
-static const scree_property properties[] = {
-    {sizeof(scree_property), SCREE_NUMBER, PROPERTY, "N/m", "stiffness", WORD, 1, SCREE_HAS_LOW | SCREE_HAS_FALLBACK, 0,
-     0, 0, FALLBACK, 0, 0, 0, 0},
-};
+#define ROW                                                                                                    \
+  {PROPERTY_SIZE, TYPE, PROPERTY, UNIT, "stiffness", WORD, 1, SCREE_HAS_LOW | SCREE_HAS_HIGH | SCREE_HAS_FALLBACK, \
+   0, 0, HIGH, FALLBACK, 1, 0, 0, 0}
+static const scree_property properties[] = {ROW, ROW};
 static const char* const forms[] = {FORM};
 static const scree_contact_model model = {
     .struct_size = TABLE_SIZE,
-    .property_count = 1,
+    .property_count = PROPERTIES,
     .properties = properties,
-    .rule_words = 1,
+    .rule_words = RULE_WORDS,
     .form_count = 1,
     .forms = forms,
-    .uniform = {law},
+    .uniform = {LAW},
     .varying = {law},
     .stiffness = STIFFNESS,
 };
@@ -95,12 +141,14 @@ static const void* table(void) {
 #endif
 }
 
-static const scree_component components[] = {
-    {KIND, 0, NAME, "1.0.0", "a spring", table},
-    {KIND, 0, NAME, "1.0.0", "the same again", table},
+__attribute__((unused)) static const scree_component components[] = {
+    {KIND, 0, NAME, VERSION, "a spring", table},
+    {KIND, 0, NAME, VERSION, "the same again", table},
 };
-#ifndef NO_SYMBOL
+#if defined(FUNCTION)
+EXPORT int scree_plugin(void) { return 1; }
+#elif !defined(NO_SYMBOL)
 EXPORT const scree_plugin_header scree_plugin = {
-    MAGIC, HEADER_SIZE, MAJOR, MINOR, SCREE_SDK_VERSION, "C", COUNT, sizeof(scree_component), components,
+    MAGIC, HEADER_SIZE, MAJOR, MINOR, SCREE_SDK_VERSION, "C", COUNT, COMPONENT_SIZE, COMPONENTS,
 };
 #endif

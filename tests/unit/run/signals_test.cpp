@@ -109,7 +109,7 @@ TEST_CASE("a stack overflow is reported from any thread") {
   const ChildEnd main_thread = in_child([] {
     reset_signals();
     install_crash_handler();
-    crash_note.plugin = "deep";
+    crash_note = {.plugin = "deep"};
     return recurse(0);
   });
   CHECK(main_thread.signal == SIGSEGV);
@@ -120,7 +120,7 @@ TEST_CASE("a stack overflow is reported from any thread") {
     Team team(2, [](unsigned) { use_crash_stack(); });
     team.each_block(2, [](size_t block) {
       if (block == 1) {
-        crash_note.plugin = "deep";
+        crash_note = {.plugin = "deep"};
         recurse(0);
       }
     });
