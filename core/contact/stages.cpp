@@ -177,6 +177,7 @@ template <bool Lean, bool Spin, bool Moment, bool Sum>
 SCREE_STAGE bool scatter(uint32_t n, std::size_t first_row, double* slice, Scratch& s) {
   constexpr std::size_t stride = Lean ? 4 : 8;
   double *fx = s.fx, *fy = s.fy, *fz = s.fz, *mx = s.mx, *my = s.my, *mz = s.mz, *size = s.square;
+  double squares[Scratch::size];
   const auto one = [&](uint32_t k) SCREE_BODY {
     const double sign = s.sign[k], x = fx[k], y = fy[k], z = fz[k];
     double square = x * x + y * y + z * z;
@@ -196,11 +197,13 @@ SCREE_STAGE bool scatter(uint32_t n, std::size_t first_row, double* slice, Scrat
     fx[k] = sign * x;
     fy[k] = sign * y;
     fz[k] = sign * z;
-    return static_cast<int>(!(square <= largest_square));
+    squares[k] = square;
   };
+#pragma omp simd
+  for (uint32_t k = 0; k < n; ++k) one(k);
   int useless = 0;
 #pragma omp simd reduction(| : useless)
-  for (uint32_t k = 0; k < n; ++k) useless |= one(k);
+  for (uint32_t k = 0; k < n; ++k) useless |= !(squares[k] <= largest_square);
   for (uint32_t k = 0; k < n; ++k) {
     double* a = slice + (s.row[k] - first_row) * stride;
     double* b = slice + (s.where[k] & target::record_mask) * stride;
