@@ -1,8 +1,11 @@
 #pragma once
 #include <scree/abi.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/plugin/catalogue.hpp"
 
@@ -17,5 +20,11 @@ struct Loaded {
 /// Checks the file, opens it and checks what it holds. None of its code runs before the file's own checks have passed.
 /// Throws Refusal(Exit::plugin). [one thread]
 Loaded load_component(Kind kind, const std::string& name, const std::filesystem::path& file);
+
+/// The whole file. Throws Refusal(Exit::plugin) when it cannot be read or is no file. [any thread]
+std::vector<std::byte> read_library(const std::filesystem::path& file);
+
+/// What a library holds, after the same checks of the file. Throws Refusal(Exit::plugin). [one thread]
+std::vector<std::pair<Kind, std::string>> list_components(const std::filesystem::path& file);
 
 }  // namespace scree::core
