@@ -21,15 +21,38 @@ const std::vector<Check> of_library = {
 };
 
 const std::vector<Check> of_contact_model = {
+    {"inputs", "properties within their bounds are accepted and follow from the inputs alone", accepts_inputs},
     {"exchange", "with the pieces exchanged the force is reversed", exchange},
     {"frame_turn", "in a turned frame the force is turned", frame_turn},
     {"turns_along", "a pair that turns as a whole keeps its forces", turns_along},
+    {"stiffness", "normal and shear stiffness are not less than the slope of the force", stiffness_touch},
+    {"stiffness_rotation", "bending and twisting stiffness are not less than the slope of the moment",
+     stiffness_rotation},
+    {"stiffness_bonded", "all four stiffnesses of a bonded contact are not less than the slopes", stiffness_bonded},
+    {"stiffness_generous", "the normal stiffness is not needlessly large", stiffness_generous},
+    {"dashpot_share", "dashpots are not stronger than reported", dashpot_share},
+    {"nothing_back", "from touch to separation no path gives energy", nothing_back},
+    {"nothing_back_bonded", "no closed path of a bonded contact gives energy", nothing_back_bonded},
+    {"continuity", "the force has no jump at touch, at reach or in between", continuity},
+    {"reach", "no force is left where the kernel stops calling the law", reach_honest},
+    {"bond_breaks_once", "a bond breaks once, and a broken one holds nothing", bond_breaks_once},
+    {"energy_balance", "work is stored, slid away, damped or broken", energy_balance},
+    {"energy_balance_bonded", "the same for a bonded contact", energy_balance_bonded},
     {"batch_sizes", "batches of 1, 7, 8 and 128 give the same bits", batch_sizes},
     {"instruction_sets", "baseline, v3 and v4 give the same bits", instruction_sets},
     {"varying", "uniform and varying properties give the same bits", varying_properties},
     {"energy_variant", "keeping energies changes no bit of the forces", energy_variant},
     {"normal_only", "the law without tangential part gives the force of the full law", normal_only_variant},
     {"bonded_variants", "bonded contacts have the same bits however the law is called", bonded_variants},
+    {"state_round_trip", "a copied state goes on with the same bits", state_round_trip},
+    {"repeatable", "the same inputs give the same bits, whatever ran in between", repeatable},
+    {"no_allocation", "the law takes nothing from the heap", law_allocates},
+    {"no_global_state", "the law changes no variable of the library", law_global_state},
+    {"float_mode", "the law leaves the floating-point mode as it is (MXCSR)", law_float_mode},
+    {"trespass", "the law writes its own arrays and nothing else", law_trespass},
+    {"extremes", "extreme inputs give finite answers", extremes_finite},
+    {"nan_passes", "what is not a number is passed on", nan_passes},
+    {"speed", "time for one contact, and whether the compiler made a vector loop", law_speed},
 };
 
 }  // namespace

@@ -133,6 +133,12 @@ void LawBench::copy_state(std::size_t i, const LawBench& from, std::size_t j) {
   for (std::size_t w = 0; w < state_.size(); ++w) set_state(w, i, from.state(w, j));
 }
 
+void LawBench::mark_energies() {
+  for (Column& c : energy_) std::fill(c.begin(), c.end(), guard_value);
+}
+
+bool LawBench::energies_written() const { return energy_[0][guard] != guard_value; }
+
 std::vector<uint64_t> LawBench::bits() const {
   std::vector<uint64_t> all;
   for (std::size_t i = 0; i < count_; ++i) {

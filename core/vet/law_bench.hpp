@@ -58,6 +58,9 @@ class LawBench {
   double event(std::size_t i) const { return out(6, i); }
   double sliding(std::size_t i) const { return out(7, i); }
   double energies(std::size_t term, std::size_t i) const { return energy_[term][guard + i]; }
+  /// Puts a mark into the energies, and whether the law wrote over it.
+  void mark_energies();
+  bool energies_written() const;
   std::size_t state_words() const { return state_.size(); }
   double state(std::size_t word, std::size_t i) const { return state_[word][guard + i]; }
   void set_state(std::size_t word, std::size_t i, double value) { state_[word][guard + i] = value; }
