@@ -1,6 +1,8 @@
 #include "core/vet/check.hpp"
+#include "core/vet/kind_checks.hpp"
 #include "core/vet/law_checks.hpp"
 #include "core/vet/library_checks.hpp"
+#include "core/vet/object.hpp"
 
 // The one list of all checks; docs/vet.md says more about each.
 
@@ -55,6 +57,56 @@ const std::vector<Check> of_contact_model = {
     {"speed", "time for one contact, and whether the compiler made a vector loop", law_speed},
 };
 
+const std::vector<Check> of_object = {
+    {"settings", "values within their bounds are accepted, by every object alike", settings_accepted},
+    {"refusals", "values of a wrong type or outside their bounds are refused with a reason", settings_refused},
+    {"given_back", "objects that are destroyed give back what they took", objects_given_back},
+};
+
+const std::vector<Check> of_wall = {
+    {"touches", "unit normals, finite distances, each patch of a ball once", wall_touches_sound},
+    {"slope", "the distance changes along the normal as the ball moves", wall_slope},
+    {"wall_reach", "every patch within reach is named, whatever the reach", wall_reach},
+    {"flat", "a flat patch has one normal", wall_flat},
+    {"outline", "polygons and area are finite", wall_outline},
+    {"arrays", "balls in an array touch as they do alone", wall_arrays},
+    {"overflow", "touches beyond the room are counted and not written", wall_overflow},
+    {"extremes", "extreme places give finite touches", wall_extremes},
+    {"no_allocation", "touching takes nothing from the heap", wall_allocates},
+    {"no_global_state", "touching changes no variable of the library", wall_global_state},
+    {"float_mode", "touching leaves the floating-point mode as it is", wall_float_mode},
+};
+
+const std::vector<Check> of_process = {
+    {"row_bits", "blocks of 1, 7, 8 and 256 on every instruction set give the same bits", process_bits},
+    {"columns", "only columns declared as written are written, and optional ones may be absent", process_columns},
+    {"extremes", "extreme columns stay finite", process_extremes},
+    {"no_allocation", "rows take nothing from the heap", process_allocates},
+    {"no_global_state", "rows change no variable of the library", process_global_state},
+    {"float_mode", "rows leave the floating-point mode as it is", process_float_mode},
+    {"steps", "steps in a small scene work or refuse with a reason, within their State", process_step},
+    {"damping", "the share of damping is at least 0 and below 1", process_damping},
+    {"speed", "time for one ball", process_speed},
+};
+
+const std::vector<Check> of_generator = {
+    {"repeatable", "the same random numbers give the same balls", generator_repeatable},
+    {"balls", "radii and densities are positive, positions finite, ids unique", generator_balls_sound},
+    {"stops", "it stops when the program refuses a ball", generator_stops},
+};
+
+const std::vector<Check> of_writer = {
+    {"frames", "full, empty and extreme frames are written below the output folder", writer_frames},
+    {"repeatable", "the same frames give the same bytes", writer_repeatable},
+    {"full_disk", "a disk that takes nothing is noticed", writer_full_disk},
+    {"resume", "a recording that was cut goes on with the same bytes", writer_resume},
+};
+
+std::vector<Check> joined(std::vector<Check> first, const std::vector<Check>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
 }  // namespace
 
 const std::vector<Check>& library_checks() { return of_library; }
@@ -63,9 +115,16 @@ std::vector<Check> component_checks(Kind kind) {
   switch (kind) {
     case Kind::contact_model:
       return of_contact_model;
-    default:
-      return {};
+    case Kind::wall:
+      return joined(of_object, of_wall);
+    case Kind::process:
+      return joined(of_object, of_process);
+    case Kind::generator:
+      return joined(of_object, of_generator);
+    case Kind::writer:
+      return joined(of_object, of_writer);
   }
+  return {};
 }
 
 }  // namespace scree::core::vet

@@ -8,6 +8,7 @@ namespace scree::core::vet {
 namespace {
 
 constexpr std::size_t contacts = 8;
+constexpr double free_energy = 1e-3;  // share of the energy moved; what is measured converges with the square of the step
 
 /// Work and energies of one contact from birth to death.
 struct Account {
@@ -60,17 +61,24 @@ Outcome gives_nothing(const Subject& subject, Part wanted) {
     Party party(c, part, contacts, 82, false);
     const double time = 100 * c.slow();
     const std::vector<Account> coarse = accounts(party, 60, time, false), fine = accounts(party, 120, time, false);
+    std::vector<Account> finest;
     for (std::size_t i = 0; i < contacts; ++i) {
       if (!(fine[i].moved > 0)) continue;
       // What is left of a gain when steps get shorter: an error of integration goes away, a law that gives does not.
       const double limit = 2 * fine[i].work - coarse[i].work;
-      worst.see(std::max(0.0, -std::max(limit, fine[i].work)) / fine[i].moved, [&] {
+      double gain = std::max(0.0, -std::max(limit, fine[i].work)) / fine[i].moved;
+      if (gain > free_energy) {
+        // Crossing a jump of the force errs by a share of a step, at random; that goes away more slowly.
+        if (finest.empty()) finest = accounts(party, 1920, time, false);
+        gain = std::min(gain, std::max(0.0, -finest[i].work) / finest[i].moved);
+      }
+      worst.see(std::isnan(fine[i].work) ? NAN : gain, [&] {
         return fmt::format("{:.4g} J given back beyond what was put in, of {:.4g} J moved on path {}; {}, {}", -fine[i].work,
                            fine[i].moved, i, part_name(part), c.text);
       });
     }
   });
-  return worst.judged(1e-3, "a contact may store and lose energy, never make it: look at how remembered forces change "
+  return worst.judged(free_energy, "a contact may store and lose energy, never make it: look at how remembered forces change "
                             "when the stiffness does (an unloading contact must scale its shear force down)");
 }
 

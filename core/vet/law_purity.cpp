@@ -2,10 +2,8 @@
 #include <cstring>
 
 #include "core/base/log.hpp"
-#include "core/vet/allocation_watch.hpp"
 #include "core/vet/law_checks.hpp"
-#include "core/vet/loaded_object.hpp"
-#include "core/vet/process_state.hpp"
+#include "core/vet/purity.hpp"
 
 // A law must be a pure function of what it is handed: it runs on any thread, is called again for output, and may be
 // evaluated on two machines.
@@ -65,6 +63,14 @@ class Call {
   scree_batch batch_;
   double k_[6][contacts] = {};
 };
+
+template <class Run>
+void each_call(const Subject& subject, uint64_t seed, const Run& run) {
+  each_batch(subject, seed, [&](const Case& c, Part part, LawBench& bench) {
+    Call call(*c.model, bench);
+    run(call, [&] { return std::string(part_name(part)) + ", " + c.text; });
+  });
+}
 
 }  // namespace
 
@@ -141,50 +147,17 @@ Outcome repeatable(const Subject& subject) {
 }
 
 Outcome law_allocates(const Subject& subject) {
-  const scree_contact_model& model = subject.component->contact_model();
-  AllocationWatch watch(code_of(model));
-  Worst worst;
-  each_batch(subject, 111, [&](const Case& c, Part part, LawBench& bench) {
-    Call call(model, bench);
-    const std::size_t calls = watch.during(call);
-    worst.see(static_cast<double>(calls), [&] {
-      return fmt::format("{} calls of malloc, free and the like for {} contacts; {}, {}", calls, contacts, part_name(part),
-                         c.text);
-    });
-  });
-  return worst.judged(0, "a law runs millions of times a second on every thread: no vector, string or new in it");
+  return nothing_allocated(code_of(subject.component->contact_model()),
+                           [&](const auto& run) { each_call(subject, 111, run); });
 }
 
 Outcome law_global_state(const Subject& subject) {
-  const scree_contact_model& model = subject.component->contact_model();
-  const MemoryPicture before(object_of(code_of(model)));
-  Worst worst;
-  each_batch(subject, 113, [&](const Case& c, Part part, LawBench& bench) {
-    Call(model, bench)();
-    const std::size_t changed = before.changed();
-    worst.see(static_cast<double>(changed), [&] {
-      return fmt::format("{} bytes of the library's variables have changed; {}, {}", changed, part_name(part), c.text);
-    });
-  });
-  return worst.judged(0, "a law keeps nothing in static or global variables: threads would race for them");
+  return nothing_kept(code_of(subject.component->contact_model()),
+                      [&](const auto& run) { each_call(subject, 113, run); });
 }
 
 Outcome law_float_mode(const Subject& subject) {
-  const scree_contact_model& model = subject.component->contact_model();
-  const ProcessState before;
-  const unsigned mode = float_mode();
-  Worst worst;
-  each_batch(subject, 115, [&](const Case& c, Part part, LawBench& bench) {
-    Call(model, bench)();
-    worst.see(float_mode() == mode ? 0 : 1, [&] {
-      return fmt::format("floating-point control {:#x} before the law, {:#x} after it; {}, {}", mode, float_mode(),
-                         part_name(part), c.text);
-    });
-  });
-  const std::string trace = before.difference(ProcessState());
-  if (worst.figure() == 0 && !trace.empty())
-    return failed("running the law changed " + trace, "a law only computes");
-  return worst.judged(0, "leave rounding, denormals and exceptions as they are: they belong to the whole program");
+  return mode_kept([&](const auto& run) { each_call(subject, 115, run); });
 }
 
 Outcome law_trespass(const Subject& subject) {
