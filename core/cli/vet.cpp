@@ -113,7 +113,7 @@ std::string list_text() {
 
 struct Flags {
   CommonFlags common;
-  std::string library, kind, only, limit;
+  std::string library, kind, component, only, limit;
   bool json = false, list = false;
 };
 
@@ -126,6 +126,7 @@ Exit run_vet(const Flags& flags) {
   if (flags.library.empty()) throw Refusal(Exit::usage, "LIB is required  (scree vet -h lists operands and flags)");
   vet::Options options;
   options.only = flags.only;
+  options.component = flags.component;
   if (!flags.limit.empty()) options.limit = seconds(flags.limit);
   const std::optional<Kind> kind = parse_kind(flags.kind);
   const std::filesystem::path file = file_of(flags.library, kind, *flags.common.catalogue());
@@ -146,6 +147,7 @@ Deed declare_vet(CLI::App& app) {
   auto flags = std::make_shared<Flags>();
   app.add_option("LIB", flags->library, "the library, a .so file, or the name of an installed plug-in")->type_name("");
   app.add_option("--kind", flags->kind, "which kind, where a name is of several: " + kind_words())->type_name("KIND");
+  app.add_option("--component", flags->component, "only this component of the library")->type_name("NAME");
   app.add_option("--check", flags->only, "make this check only")->type_name("NAME");
   app.add_option("--limit", flags->limit, "seconds that one check may take; 30 by default")->type_name("SECONDS");
   app.add_flag("--list", flags->list, "name all checks and end");

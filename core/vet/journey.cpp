@@ -22,12 +22,29 @@ Journey::Journey(const Case& c, Part part, uint64_t seed, bool turning) : piece_
     for (std::size_t w = 1; w < 3; ++w) p[w] = random.between(-slip, slip);
     for (std::size_t w = 3; w < 6; ++w) p[w] = random.between(-angle, angle);
   }
+  if (random.chance(0.4)) go_round(c.depth, slip, random);
   if (turning)
     for (Vec3& turn : turns_) turn = random.vector(0.8);
   start_[0] = random.direction();
   start_[1] = start_[0].cross(random.direction()).normalized();
   start_[2] = start_[0].cross(start_[1]);
   restart(1);
+}
+
+void Journey::go_round(double depth, double slip, Numbers& random) {
+  // Loads across the normal at one overlap and unloads at another: the loop that tells what a changing stiffness does.
+  const double deep = -depth * random.between(0.6, 1), shallow = deep * random.between(0.2, 0.6);
+  const bool in_first = random.chance(0.5);
+  const double first = in_first ? deep : shallow, second = in_first ? shallow : deep;
+  const double gaps[] = {first, first, second, second, shallow};
+  for (uint32_t k = 1; k < legs; ++k) {
+    Point& p = points_[k];
+    const bool loaded = k == 2 || k == 3;
+    p[0] = gaps[k - 1];
+    for (std::size_t w = 1; w < p.size(); ++w) p[w] = 0;
+    if (loaded) p[1] = 0.2 * slip;
+    if (loaded && random.chance(0.5)) p[3 + random.below(3)] = 0.2 * slip / (piece_.r1 + piece_.r2);
+  }
 }
 
 void Journey::restart(uint32_t steps_per_leg) {

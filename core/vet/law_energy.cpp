@@ -17,7 +17,8 @@ struct Account {
   double strain = 0;  ///< J, reported as stored now
   double lost = 0;    ///< J, sum of the losses reported, what was stored at a separation included
   double given = 0;   ///< J, sum of the losses that are below zero
-  double residual() const { return work - strain - lost; }
+  /// J, work that is not accounted for, at the end of each leg of the path.
+  std::array<double, Journey::legs> residual{};
 };
 
 /// Force and moment at the middle of a step times displacement: exact to second order.
@@ -28,7 +29,7 @@ std::vector<Account> accounts(Party& party, uint32_t steps, double total_time, b
   bench->energy = energies;
   std::vector<Account> all(party.seen.size());
   std::vector<Vec3> force(all.size()), moment(all.size());
-  while (!party.done()) {
+  for (uint32_t step = 0; !party.done(); ++step) {
     party.step(bench->dt);
     party.put(*bench);
     bench->run();
@@ -49,6 +50,7 @@ std::vector<Account> accounts(Party& party, uint32_t steps, double total_time, b
         a.lost += bench->energies(term, i);
         a.given -= std::min(0.0, bench->energies(term, i));
       }
+      a.residual[step / steps] = a.work - a.strain - a.lost;
     }
   }
   return all;
@@ -97,12 +99,15 @@ Outcome balanced(const Subject& subject, Part wanted) {
       given.see(b.given / scale, [&] {
         return fmt::format("losses of {:.3g} J below zero on path {}; {}, {}", -b.given, i, part_name(part), c.text);
       });
-      // A bond that breaks one step earlier or later shifts the account by a step's work: first order at best.
-      const double limit = std::abs(2 * b.residual() - a.residual()), left = std::min(limit, std::abs(b.residual()));
-      worst.see(std::isnan(limit) ? limit : left / scale, [&] {
-        return fmt::format("work {:.6g} J, stored {:.4g} J, lost {:.6g} J on path {}: {:.4g} J are missing; {}, {}", b.work,
-                           b.strain, b.lost, i, b.residual(), part_name(part), c.text);
-      });
+      for (std::size_t leg = 0; leg < Journey::legs; ++leg) {
+        const double missing = b.residual[leg], limit = 2 * missing - a.residual[leg];
+        // What is left when steps get shorter. A bond that breaks a step earlier or later shifts it at random.
+        const double left = std::min(std::abs(limit), std::abs(missing));
+        worst.see(std::isnan(limit) ? limit : left / scale, [&] {
+          return fmt::format("{:.4g} J are missing after leg {} of path {}, of {:.4g} J moved; {}, {}", missing, leg + 1, i,
+                             b.moved, part_name(part), c.text);
+        });
+      }
     }
   });
   // The trapezoid of a step in which a spring unloads and slides may come out below zero, by the square of the step.

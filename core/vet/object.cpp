@@ -119,7 +119,7 @@ std::string text_of(const scree_object& table, const Settings& settings) {
   std::string out;
   for (const Given& g : settings) {
     out += fmt::format("{}{}=", out.empty() ? "" : " ", table.properties[g.property].name);
-    for (const double value : g.numbers) out += fmt::format("{}{:.6g}", &value == g.numbers.data() ? "" : ",", value);
+    for (const double& value : g.numbers) out += fmt::format("{}{:.6g}", &value == g.numbers.data() ? "" : ",", value);
     for (const std::string& text : g.texts) out += text;
   }
   return out.empty() ? "no settings" : out;

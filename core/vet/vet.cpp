@@ -135,10 +135,22 @@ std::vector<Row> vet(const fs::path& given, const Options& options, const std::f
     done(row);
     rows.push_back(std::move(row));
   };
-  for (const Check& check : library_checks()) make(check, "library", nullptr);
-  for (const Name& name : names_in(file, options.limit))
+  if (options.component.empty())
+    for (const Check& check : library_checks()) make(check, "library", nullptr);
+  std::vector<std::string> held;
+  bool found = options.component.empty();
+  for (const Name& name : names_in(file, options.limit)) {
+    held.push_back(name.second);
+    if (!options.component.empty() && options.component != name.second) continue;
+    found = true;
     for (const Check& check : component_checks(name.first))
       make(check, std::string(kind_name(name.first)) + " " + name.second, &name);
+  }
+  if (!found) {
+    const std::string near = nearest_name(options.component, held);
+    throw Refusal(Exit::usage, file.string() + " holds no component '" + options.component + "'" +
+                                   (near.empty() ? "" : "; did you mean '" + near + "'?"));
+  }
   return rows;
 }
 

@@ -18,8 +18,9 @@ struct Row {
 };
 
 struct Options {
-  std::string only;   ///< the name of one check; "": all
-  double limit = 30;  ///< s, wall time of one check
+  std::string only;       ///< the name of one check; "": all
+  std::string component;  ///< the name of one component; "": the library and all that it holds
+  double limit = 30;      ///< s, wall time of one check
 };
 
 /// Makes every check of a library and of each component in it, each check in a process of its own; `done` hears of each

@@ -117,11 +117,11 @@ Outcome wall_reach(const Subject& subject) {
 Outcome wall_flat(const Subject& subject) {
   if ((table_of(subject).flags & SCREE_WALL_FLAT) == 0) throw Skipped("it does not claim to be flat");
   Worst worst;
-  const void* last = nullptr;
+  const Settings* last = nullptr;
   std::map<uint32_t, Vec3> normals;
-  for_balls(subject, 5, [&](const Vec3& x, const WallBench& bench, const void* wall, const Settings& settings) {
-    if (wall != last) normals.clear();
-    last = wall;
+  for_balls(subject, 5, [&](const Vec3& x, const WallBench& bench, const void*, const Settings& settings) {
+    if (&settings != last) normals.clear();
+    last = &settings;
     for (const Touch& t : bench.touches()) {
       const Vec3 first = normals.emplace(t.patch, t.normal).first->second;
       worst.see((t.normal - first).norm(), [&] {
