@@ -22,7 +22,7 @@ Journey::Journey(const Case& c, Part part, uint64_t seed, bool turning) : piece_
     for (std::size_t w = 1; w < 3; ++w) p[w] = random.between(-slip, slip);
     for (std::size_t w = 3; w < 6; ++w) p[w] = random.between(-angle, angle);
   }
-  if (random.chance(0.4)) go_round(c.depth, slip, random);
+  if (random.chance(0.4)) go_round(c.depth, random);
   if (turning)
     for (Vec3& turn : turns_) turn = random.vector(0.8);
   start_[0] = random.direction();
@@ -31,9 +31,11 @@ Journey::Journey(const Case& c, Part part, uint64_t seed, bool turning) : piece_
   restart(1);
 }
 
-void Journey::go_round(double depth, double slip, Numbers& random) {
+void Journey::go_round(double depth, Numbers& random) {
   // Loads across the normal at one overlap and unloads at another: the loop that tells what a changing stiffness does.
-  const double deep = -depth * random.between(0.6, 1), shallow = deep * random.between(0.2, 0.6);
+  const double deep = -depth * random.between(0.6, 1), shallow = deep * random.between(0.3, 0.6);
+  // Little enough to stick at the smaller overlap with usual friction.
+  const double slip = -shallow * random.between(0.1, 0.5);
   const bool in_first = random.chance(0.5);
   const double first = in_first ? deep : shallow, second = in_first ? shallow : deep;
   const double gaps[] = {first, first, second, second, shallow};
@@ -42,8 +44,8 @@ void Journey::go_round(double depth, double slip, Numbers& random) {
     const bool loaded = k == 2 || k == 3;
     p[0] = gaps[k - 1];
     for (std::size_t w = 1; w < p.size(); ++w) p[w] = 0;
-    if (loaded) p[1] = 0.2 * slip;
-    if (loaded && random.chance(0.5)) p[3 + random.below(3)] = 0.2 * slip / (piece_.r1 + piece_.r2);
+    if (loaded) p[1] = slip;
+    if (loaded && random.chance(0.5)) p[3 + random.below(3)] = slip / (piece_.r1 + piece_.r2);
   }
 }
 

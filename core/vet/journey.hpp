@@ -27,7 +27,7 @@ class Journey {
 
  private:
   using Point = std::array<double, 6>;
-  void go_round(double depth, double slip, Numbers& random);
+  void go_round(double depth, Numbers& random);
   Point place(uint32_t step) const;
   void turn_frame(uint32_t leg, Vec3& turn);
 

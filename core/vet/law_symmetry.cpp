@@ -17,7 +17,7 @@ constexpr uint32_t steps = 30;
 /// Largest force and moment so far, for each contact: what a difference is measured by.
 class Sizes {
  public:
-  explicit Sizes(std::size_t count) : force_(count, 0.0), moment_(count, 0.0) {}
+  Sizes(const Case& c, std::size_t count) : lever_(1e-4 * (c.r1 + c.r2)), force_(count, 0.0), moment_(count, 0.0) {}
   void see(const LawBench& bench) {
     for (std::size_t i = 0; i < force_.size(); ++i) {
       force_[i] = std::max(force_[i], bench.force(i).norm());
@@ -25,7 +25,8 @@ class Sizes {
     }
   }
   double share(std::size_t i, const Vec3& force, const Vec3& moment) const {
-    return std::max(part(force, force_[i]), part(moment, moment_[i]));
+    // A moment that is rounding alone is measured by the force.
+    return std::max(part(force, force_[i]), part(moment, std::max(moment_[i], lever_ * force_[i])));
   }
 
  private:
@@ -33,6 +34,7 @@ class Sizes {
     const double d = difference.norm();
     return d == 0 ? 0.0 : d / size;
   }
+  double lever_;
   std::vector<double> force_, moment_;
 };
 
@@ -77,7 +79,7 @@ Outcome exchange(const Subject& subject) {
     LawBench there(*c.model, part, contacts, c.exchanged().words);
     there.reach = here->reach;
     here->dt = there.dt = c.dt;
-    Sizes sizes(contacts);
+    Sizes sizes(c, contacts);
     while (!party.done()) {
       party.step(c.dt);
       party.put(*here);
@@ -111,7 +113,7 @@ Outcome frame_turn(const Subject& subject) {
     LawBench there(*c.model, part, contacts, turned(c).words);
     there.reach = here->reach;
     here->dt = there.dt = c.dt;
-    Sizes sizes(contacts);
+    Sizes sizes(c, contacts);
     while (!party.done()) {
       party.step(c.dt);
       party.put(*here);
@@ -139,7 +141,7 @@ Outcome turns_along(const Subject& subject) {
     turning.restart(8 * steps);
     const auto here = still.bench(), there = turning.bench();
     here->dt = there->dt = c.dt;
-    Sizes sizes(contacts);
+    Sizes sizes(c, contacts);
     const auto local = [](const Journey& j, const Vec3& v) {
       return Vec3{v.dot(j.normal()), v.dot(j.across(0)), v.dot(j.across(1))};
     };
