@@ -59,7 +59,8 @@ std::string figure_text(const vet::Outcome& outcome) {
 std::string line_of(const Row& row) {
   const vet::Outcome& o = row.outcome;
   const bool wrong = o.verdict == Verdict::fail || o.verdict == Verdict::note;
-  std::string out = fmt::format("  {:<4}  {:<20}  {:<20}  {}", verdict_name(o.verdict), row.check, figure_text(o), row.shows);
+  std::string out =
+      fmt::format("  {:<4}  {:<20}  {:<20}  {}", verdict_name(o.verdict), row.check, figure_text(o), row.shows);
   if (!wrong && !o.found.empty()) out += (o.verdict == Verdict::skip ? ": " : ". ") + o.found;
   out += "\n";
   if (wrong) {

@@ -63,7 +63,8 @@ void check_numbers(const HeaderNumbers& n, const std::filesystem::path& file) {
 std::vector<std::pair<Kind, std::string>> components_of(const scree_plugin_header& header,
                                                         const std::filesystem::path& file) {
   std::vector<std::pair<Kind, std::string>> list;
-  for (const scree_component* c : sound_components(header, file)) list.emplace_back(static_cast<Kind>(c->kind), c->name);
+  for (const scree_component* c : sound_components(header, file))
+    list.emplace_back(static_cast<Kind>(c->kind), c->name);
   return list;
 }
 

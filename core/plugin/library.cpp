@@ -112,7 +112,7 @@ Loaded load_component(Kind kind, const std::string& name, const fs::path& file) 
 
   Loaded loaded;
   loaded.changed_float_mode = changed;
-  loaded.component = {kind,  entry.name, entry.version, entry.doc ? entry.doc : "", real, opened.sha256, table};
+  loaded.component = {kind, entry.name, entry.version, entry.doc ? entry.doc : "", real, opened.sha256, table};
   return loaded;
 }
 

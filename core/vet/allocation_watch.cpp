@@ -90,7 +90,7 @@ struct Dynamic {
     return v == 0 || v >= base ? v : base + v;
   }
   std::size_t base;
-  const ElfW(Dyn)* first = nullptr;
+  const ElfW(Dyn) * first = nullptr;
 };
 
 void substitute_in(const Dynamic& d, std::size_t table, std::size_t bytes) {
@@ -122,7 +122,8 @@ void watch_object(const LoadedObject& object) {
 
 AllocationWatch::AllocationWatch(const void* inside) {
   for (const LoadedObject& object : loaded_objects()) {
-    const bool library = object.name.find("libstdc++") != std::string::npos || object.name.find("libc++") != std::string::npos;
+    const bool library =
+        object.name.find("libstdc++") != std::string::npos || object.name.find("libc++") != std::string::npos;
     if (library || object.holds(inside)) watch_object(object);
   }
 }

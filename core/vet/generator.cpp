@@ -77,7 +77,8 @@ std::string generated(const Subject& subject, const Settings& settings, Host& ho
   Refused refused;
   if (table.generate(object.get(), host.table(), &refused.table) == 0) return "";
   if (refused.why[0] == 0 && !host.refused)
-    throw Failed("it refuses without a reason; " + text_of(table.object, settings), "throw a std::exception that says why");
+    throw Failed("it refuses without a reason; " + text_of(table.object, settings),
+                 "throw a std::exception that says why");
   return refused.why[0] != 0 ? refused.why : "stopped";
 }
 
@@ -141,9 +142,10 @@ Outcome generator_balls_sound(const Subject& subject) {
         }
         if ((b.given & SCREE_BALL_ID) != 0) good = good && b.id > 0 && ids.insert(b.id).second;
         if (!good)
-          throw Failed(fmt::format("ball {} has radius {} at ({}, {}, {}), id {}; {}", seen, b.radius, b.position[0],
-                                   b.position[1], b.position[2], b.id, text_of(table_of(subject).object, settings)),
-                       "give positive finite radii and densities, finite positions, ids that are unique and at least 1");
+          throw Failed(
+              fmt::format("ball {} has radius {} at ({}, {}, {}), id {}; {}", seen, b.radius, b.position[0],
+                          b.position[1], b.position[2], b.id, text_of(table_of(subject).object, settings)),
+              "give positive finite radii and densities, finite positions, ids that are unique and at least 1");
       }
     }
   });
@@ -159,7 +161,8 @@ Outcome generator_stops(const Subject& subject) {
       const bool good = !host.refused || (!host.went_on && !why.empty());
       worst.see(good ? 0 : 1, [&] {
         return fmt::format("the program refused ball {}, and it {}; {}", room + 1,
-                           host.went_on ? "went on" : "said that all went well", text_of(table_of(subject).object, settings));
+                           host.went_on ? "went on" : "said that all went well",
+                           text_of(table_of(subject).object, settings));
       });
     }
   });

@@ -84,7 +84,8 @@ ChildEnd isolated(const std::function<std::string()>& work, double limit) {
   if (child == 0) run_child(work, out.get());
   out.close();
   ChildEnd end;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
+  const auto deadline =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limit));
   end.timed_out = !read_until(in.get(), deadline, end.bytes);
   const int status = reaped(child, deadline, end.timed_out);
   if (WIFSIGNALED(status)) end.signal = WTERMSIG(status);

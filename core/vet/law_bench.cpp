@@ -23,9 +23,10 @@ uint64_t bits_of(double value) {
 }  // namespace
 
 std::string text_of(const Seen& s) {
-  return fmt::format("gap {:.6g} m, normal {}, velocity {} m/s, spin {} rad/s, turn {}, radii {:.4g} and {:.4g} m, mass "
-                     "{:.4g} kg",
-                     s.gap, text_of(s.normal), text_of(s.velocity), text_of(s.spin), text_of(s.turn), s.r1, s.r2, s.mass);
+  return fmt::format(
+      "gap {:.6g} m, normal {}, velocity {} m/s, spin {} rad/s, turn {}, radii {:.4g} and {:.4g} m, mass "
+      "{:.4g} kg",
+      s.gap, text_of(s.normal), text_of(s.velocity), text_of(s.spin), text_of(s.turn), s.r1, s.r2, s.mass);
 }
 
 const char* part_name(Part part) {
@@ -54,8 +55,9 @@ LawBench::Column LawBench::column() const {
 }
 
 void LawBench::put(std::size_t i, const Seen& s) {
-  const double values[] = {s.normal.x, s.normal.y, s.normal.z, s.gap,    s.velocity.x, s.velocity.y, s.velocity.z, s.spin.x,
-                           s.spin.y,   s.spin.z,   s.turn.x,   s.turn.y, s.turn.z,     s.r1,         s.r2,         s.mass};
+  const double values[] = {s.normal.x,   s.normal.y, s.normal.z, s.gap,    s.velocity.x, s.velocity.y,
+                           s.velocity.z, s.spin.x,   s.spin.y,   s.spin.z, s.turn.x,     s.turn.y,
+                           s.turn.z,     s.r1,       s.r2,       s.mass};
   for (std::size_t k = 0; k < in_.size(); ++k) in_[k][guard + i] = values[k];
 }
 
@@ -104,7 +106,8 @@ void LawBench::run() {
   for (std::size_t first = 0; first < count_; first += batch) {
     const scree_batch b = prepared(first, std::min(batch, count_ - first));
     if (function(rule_.data(), &b) == UINT32_MAX)
-      throw Failed("the law threw an exception while it ran", "a law answers for every input; refuse inputs in 'prepare'");
+      throw Failed("the law threw an exception while it ran",
+                   "a law answers for every input; refuse inputs in 'prepare'");
   }
   drop_open();
 }
@@ -123,8 +126,8 @@ Tangent LawBench::tangent(std::size_t i) {
   Tangent t;
   scree_batch b = prepared(i, 1);
   b.dt = 0;
-  const scree_stiffness out{sizeof(scree_stiffness), 1,        &t.normal, &t.shear, &t.bending, &t.twist,
-                            &t.dashpot_normal,       &t.dashpot_shear};
+  const scree_stiffness out{sizeof(scree_stiffness), 1, &t.normal, &t.shear, &t.bending, &t.twist, &t.dashpot_normal,
+                            &t.dashpot_shear};
   model_.stiffness(rule_.data(), &b, &out);
   return t;
 }

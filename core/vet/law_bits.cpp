@@ -93,8 +93,12 @@ const char* const keep_bits =
 
 Outcome batch_sizes(const Subject& subject) {
   return on_every_set(
-      subject, {Part::touch}, {{Isa::baseline, 128}, {Isa::baseline, 8}, {Isa::baseline, 7}, {Isa::baseline, 1},
-                               {Isa::baseline, 128, false, false, true}},
+      subject, {Part::touch},
+      {{Isa::baseline, 128},
+       {Isa::baseline, 8},
+       {Isa::baseline, 7},
+       {Isa::baseline, 1},
+       {Isa::baseline, 128, false, false, true}},
       "a contact's answer must not depend on its place in the batch or on its neighbours: keep nothing between "
       "contacts");
 }
@@ -117,10 +121,9 @@ Outcome varying_properties(const Subject& subject) {
 
 Outcome energy_variant(const Subject& subject) {
   if (subject.component->contact_model().uniform_energy[0] == nullptr) throw Skipped("the law keeps no energies");
-  return on_every_set(
-      subject, {Part::touch},
-      {{}, {Isa::baseline, SCREE_BATCH, false, true}, {Isa::baseline, SCREE_BATCH, true, true}},
-      "keeping an account of energy must not change the motion: 'energy' may only read");
+  return on_every_set(subject, {Part::touch},
+                      {{}, {Isa::baseline, SCREE_BATCH, false, true}, {Isa::baseline, SCREE_BATCH, true, true}},
+                      "keeping an account of energy must not change the motion: 'energy' may only read");
 }
 
 Outcome bonded_variants(const Subject& subject) {
@@ -129,7 +132,8 @@ Outcome bonded_variants(const Subject& subject) {
   for (const bool varying : {false, true})
     for (const std::size_t size : {128, 7, 1})
       for (const bool energy : {false, true}) ways.push_back({Isa::baseline, size, varying, energy});
-  return on_every_set(subject, {Part::bonded}, ways, "a bonded contact's answer must not depend on how the law is called");
+  return on_every_set(subject, {Part::bonded}, ways,
+                      "a bonded contact's answer must not depend on how the law is called");
 }
 
 Outcome normal_only_variant(const Subject& subject) {
@@ -159,14 +163,16 @@ Outcome normal_only_variant(const Subject& subject) {
         const Vec3 a = full->force(i), b = reduced.force(i), m = full->moment(i);
         const bool same_force = a.x == b.x && a.y == b.y && a.z == b.z && m.squaredNorm() == 0;
         worst.see(same_force ? 0 : 1, [&] {
-          return fmt::format("force ({:.17g}, {:.17g}, {:.17g}) N, without tangential part ({:.17g}, {:.17g}, {:.17g}) N; {}",
-                             a.x, a.y, a.z, b.x, b.y, b.z, text_of(c, Part::touch, party.seen[i]));
+          return fmt::format(
+              "force ({:.17g}, {:.17g}, {:.17g}) N, without tangential part ({:.17g}, {:.17g}, {:.17g}) N; {}", a.x,
+              a.y, a.z, b.x, b.y, b.z, text_of(c, Part::touch, party.seen[i]));
         });
       }
     }
   }
-  return worst.judged(0, "where 'normal_only' says yes, 'law_normal' must give the force of 'law', and 'law' nothing "
-                         "tangential");
+  return worst.judged(0,
+                      "where 'normal_only' says yes, 'law_normal' must give the force of 'law', and 'law' nothing "
+                      "tangential");
 }
 
 }  // namespace scree::core::vet

@@ -21,10 +21,10 @@ struct Scale {
 };
 /// What values of a unit are like in a granular model of millimetres to decimetres.
 constexpr std::array scales = {
-    Scale{"N/m", 1e5, 1e7},   Scale{"N m-1", 1e5, 1e7}, Scale{"Pa", 1e7, 1e9},       Scale{"Pa/m", 1e9, 1e11},
-    Scale{"N/m3", 1e9, 1e11}, Scale{"N", 1e-2, 1e2},    Scale{"m", 1e-6, 1e-5},      Scale{"N m", 1e-4, 1e-1},
-    Scale{"N m/rad", 1, 1e3}, Scale{"J/m2", 1e-2, 1},   Scale{"N/m2", 1e6, 1e9},     Scale{"s", 1e-3, 1},
-    Scale{"m/s", 1e-2, 1},    Scale{"Pa s", 1e2, 1e5},  Scale{"N s/m", 1e0, 1e3},    Scale{"degree", 5, 40},
+    Scale{"N/m", 1e5, 1e7},   Scale{"N m-1", 1e5, 1e7}, Scale{"Pa", 1e7, 1e9},     Scale{"Pa/m", 1e9, 1e11},
+    Scale{"N/m3", 1e9, 1e11}, Scale{"N", 1e-2, 1e2},    Scale{"m", 1e-6, 1e-5},    Scale{"N m", 1e-4, 1e-1},
+    Scale{"N m/rad", 1, 1e3}, Scale{"J/m2", 1e-2, 1},   Scale{"N/m2", 1e6, 1e9},   Scale{"s", 1e-3, 1},
+    Scale{"m/s", 1e-2, 1},    Scale{"Pa s", 1e2, 1e5},  Scale{"N s/m", 1e0, 1e3},  Scale{"degree", 5, 40},
     Scale{"rad", 0.1, 0.7},   Scale{"1", 0.2, 0.9},     Scale{"kg/m3", 1500, 3000}};
 
 Scale scale_of(const char* unit) {
@@ -165,7 +165,9 @@ std::vector<Case> extreme_cases(const scree_contact_model& model) {
       Numbers random(trial);
       Case c = filled(model, form, [&](const scree_property& p) {
         // The first three put every input at the same end; the others mix ends and middles.
-        return trial < 3 ? end_of(p, trial) : random.chance(0.6) ? end_of(p, static_cast<unsigned>(random.below(3))) : random_value(p, random);
+        return trial < 3            ? end_of(p, trial)
+               : random.chance(0.6) ? end_of(p, static_cast<unsigned>(random.below(3)))
+                                    : random_value(p, random);
       });
       const double r1 = trial % 3 == 0 ? 1e-5 : trial % 3 == 1 ? 1e-2 : 10;
       give_pieces(c, r1, trial % 4 == 3 ? 0.0 : r1 * (trial % 2 ? 1 : 1e-3), 2500);

@@ -22,8 +22,8 @@ struct Case {
   double dt = 0;                    ///< s: a small share of the contact's own period
   std::string text;                 ///< inputs and pieces, for a message
 
-  Seen seen() const;                         ///< a contact of these pieces in touch at gap 0
-  Case exchanged() const;                    ///< the same with the pieces exchanged
+  Seen seen() const;                        ///< a contact of these pieces in touch at gap 0
+  Case exchanged() const;                   ///< the same with the pieces exchanged
   double slow() const { return 1e6 * dt; }  ///< s: a step so long that dashpots do nothing at the same displacement
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 /// The largest change of force in one step on a way in and out again, and where it was.
 struct Jump {
-  double size = 0, most = 0;  ///< N; largest force met
+  double size = 0, most = 0;              ///< N; largest force met
   double gap = 0, before = 0, after = 0;  ///< m; normal force on either side, N
 };
 
@@ -39,7 +39,8 @@ std::vector<Jump> jumps(const std::vector<Case>& all, uint32_t steps) {
       const double change = (now - force[i]).norm();
       if (change > found[i].size || std::isnan(change)) {
         const double apart = all[i].reach + 0.1 * all[i].depth, one = (apart + all[i].depth) / steps;
-        found[i] = {change, found[i].most, k <= steps ? apart - k * one : -all[i].depth + (k - steps) * one, force[i].z, now.z};
+        found[i] = {change, found[i].most, k <= steps ? apart - k * one : -all[i].depth + (k - steps) * one, force[i].z,
+                    now.z};
       }
       found[i].most = std::max(found[i].most, now.norm());
       force[i] = now;
@@ -60,22 +61,25 @@ Outcome continuity(const Subject& subject) {
     const bool jump = std::isnan(j.size) || (j.size > 0.5 * coarse[i].size && j.size > 1e-5 * j.most);
     const bool pushes = std::max(j.before, j.after) > 0.01 * j.size;
     (jump && !pushes ? pull : push).see(jump ? j.size / j.most : 0.0, [&] {
-      return fmt::format("the force jumps from {:.6g} to {:.6g} N at gap {:.6g} m; {}", j.before, j.after, j.gap, all[i].text);
+      return fmt::format("the force jumps from {:.6g} to {:.6g} N at gap {:.6g} m; {}", j.before, j.after, j.gap,
+                         all[i].text);
     });
   }
   if (pull.figure() > 0 && push.figure() == 0)
     return {Verdict::note, pull.where() + ": a pull that comes or goes at once",
             "where that is the physics of the law, say so in its page: at a jump no time step is stable by proof",
             pull.figure(), 1e-5};
-  return push.judged(1e-5, "the force must begin at zero at touch and have no jump: a jump is a stiffness without bound, "
-                           "for which no time step is stable");
+  return push.judged(1e-5,
+                     "the force must begin at zero at touch and have no jump: a jump is a stiffness without bound, "
+                     "for which no time step is stable");
 }
 
 Outcome reach_honest(const Subject& subject) {
   Worst worst;
   for (const Case& c : cases(subject.component->contact_model(), 64, 93)) {
     if (!(c.reach >= 0) || !std::isfinite(c.reach))
-      return failed(fmt::format("'reach' is {} m; {}", c.reach, c.text), "give the gap up to which the law runs, 0 or more");
+      return failed(fmt::format("'reach' is {} m; {}", c.reach, c.text),
+                    "give the gap up to which the law runs, 0 or more");
     LawBench bench(*c.model, Part::touch, 3, c.words);
     bench.dt = 1;
     std::fill(bench.reach.begin(), bench.reach.end(), std::numeric_limits<double>::infinity());
@@ -141,8 +145,9 @@ Outcome bond_breaks_once(const Subject& subject) {
     broken += static_cast<std::size_t>(std::count_if(events.begin(), events.end(), [](int e) { return e > 0; }));
   }
   if (broken == 0) throw Skipped("no bond broke with the strengths that were tried");
-  Outcome outcome = worst.judged(0, "'broken' is 0, 1 (tension) or 2 (shear), stays what it is, and a broken bond of a "
-                                    "pair that is apart gives no force");
+  Outcome outcome = worst.judged(0,
+                                 "'broken' is 0, 1 (tension) or 2 (shear), stays what it is, and a broken bond of a "
+                                 "pair that is apart gives no force");
   if (outcome.verdict == Verdict::pass) outcome.found = fmt::format("{} bonds broke", broken);
   return outcome;
 }

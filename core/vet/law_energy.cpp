@@ -8,7 +8,8 @@ namespace scree::core::vet {
 namespace {
 
 constexpr std::size_t contacts = 8;
-constexpr double free_energy = 1e-3;  // share of the energy moved; what is measured converges with the square of the step
+constexpr double free_energy =
+    1e-3;  // share of the energy moved; what is measured converges with the square of the step
 
 /// Work and energies of one contact from birth to death.
 struct Account {
@@ -75,13 +76,14 @@ Outcome gives_nothing(const Subject& subject, Part wanted) {
         gain = std::min(gain, std::max(0.0, -finest[i].work) / finest[i].moved);
       }
       worst.see(std::isnan(fine[i].work) ? NAN : gain, [&] {
-        return fmt::format("{:.4g} J given back beyond what was put in, of {:.4g} J moved on path {}; {}, {}", -fine[i].work,
-                           fine[i].moved, i, part_name(part), c.text);
+        return fmt::format("{:.4g} J given back beyond what was put in, of {:.4g} J moved on path {}; {}, {}",
+                           -fine[i].work, fine[i].moved, i, part_name(part), c.text);
       });
     }
   });
-  return worst.judged(free_energy, "a contact may store and lose energy, never make it: look at how remembered forces change "
-                            "when the stiffness does (an unloading contact must scale its shear force down)");
+  return worst.judged(free_energy,
+                      "a contact may store and lose energy, never make it: look at how remembered forces change "
+                      "when the stiffness does (an unloading contact must scale its shear force down)");
 }
 
 Outcome balanced(const Subject& subject, Part wanted) {
@@ -104,8 +106,8 @@ Outcome balanced(const Subject& subject, Part wanted) {
         // What is left when steps get shorter. A bond that breaks a step earlier or later shifts it at random.
         const double left = std::min(std::abs(limit), std::abs(missing));
         worst.see(std::isnan(limit) ? limit : left / scale, [&] {
-          return fmt::format("{:.4g} J are missing after leg {} of path {}, of {:.4g} J moved; {}, {}", missing, leg + 1, i,
-                             b.moved, part_name(part), c.text);
+          return fmt::format("{:.4g} J are missing after leg {} of path {}, of {:.4g} J moved; {}, {}", missing,
+                             leg + 1, i, b.moved, part_name(part), c.text);
         });
       }
     }
@@ -113,8 +115,9 @@ Outcome balanced(const Subject& subject, Part wanted) {
   // The trapezoid of a step in which a spring unloads and slides may come out below zero, by the square of the step.
   if (given.figure() > 1e-4)
     return given.judged(1e-4, "friction, dashpot and break are what was lost in this step, never below zero");
-  return worst.judged(0.01, "'energy' must account for all work: strain stored now; friction, dashpot and break lost in "
-                            "this step");
+  return worst.judged(0.01,
+                      "'energy' must account for all work: strain stored now; friction, dashpot and break lost in "
+                      "this step");
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ std::vector<Seen> hard_contacts(const Case& c) {
   const double radius = c.r2 > 0 ? std::min(c.r1, c.r2) : c.r1;
   Numbers random(7);
   std::vector<Seen> list;
-  for (const double gap : {0.0, -0.0, -5e-324, -1e-300, -1e-30, -1e-9 * radius, -0.1 * radius, -0.999 * radius, c.reach})
+  for (const double gap :
+       {0.0, -0.0, -5e-324, -1e-300, -1e-30, -1e-9 * radius, -0.1 * radius, -0.999 * radius, c.reach})
     for (const double speed : {0.0, 5e-324, 1e-200, 1e-3, 1e4})
       for (const double angle : {0.0, 1e-300, 1.0}) {
         Seen s = c.seen();
@@ -47,8 +48,9 @@ Outcome accepts_inputs(const Subject& subject) {
   const std::vector<Case> all = cases(model, 64, 121);
   for (const Case& c : all) {
     for (const double word : c.words)
-      if (std::isnan(word)) return failed("'prepare' or 'derive' makes a property that is not a number; " + c.text,
-                                          "refuse such inputs by throwing in 'prepare'");
+      if (std::isnan(word))
+        return failed("'prepare' or 'derive' makes a property that is not a number; " + c.text,
+                      "refuse such inputs by throwing in 'prepare'");
     std::vector<double> again = c.inputs;
     char why[64] = "";
     const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
@@ -83,8 +85,9 @@ Outcome extremes_finite(const Subject& subject) {
           bench.run();
           for (std::size_t i = 0; i < list.size(); ++i, ++seen)
             if (const std::string what = flaw(bench, i, bench.tangent(i)); !what.empty())
-              return failed(fmt::format("{} is not finite at dt {:g} s; {}", what, dt, text_of(c, part, list[i])),
-                            "look for a division by zero, a root of something negative, or a factor of 0 times infinity");
+              return failed(
+                  fmt::format("{} is not finite at dt {:g} s; {}", what, dt, text_of(c, part, list[i])),
+                  "look for a division by zero, a root of something negative, or a factor of 0 times infinity");
         }
     }
   return passed(fmt::format("{} contacts", seen));
@@ -119,13 +122,13 @@ Outcome nan_passes(const Subject& subject) {
     s.velocity = {nan, nan, nan};
     bench.put(1, s);
     bench.run();
-    if (loaded)
-      worst.see(number(0) ? 1 : 0, [&] { return "the gap is not a number, but the force is; " + c.text; });
+    if (loaded) worst.see(number(0) ? 1 : 0, [&] { return "the gap is not a number, but the force is; " + c.text; });
     if (feels_motion)
       worst.see(number(1) ? 1 : 0, [&] { return "the velocity is not a number, but the force is; " + c.text; });
   });
-  return worst.judged(0, "what is not a number must not look like no contact: use scree::max and scree::min, not those of "
-                         "the standard library");
+  return worst.judged(0,
+                      "what is not a number must not look like no contact: use scree::max and scree::min, not those of "
+                      "the standard library");
 }
 
 }  // namespace scree::core::vet

@@ -104,9 +104,10 @@ Outcome state_round_trip(const Subject& subject) {
           same = same && std::memcmp(&x, &y, sizeof x) == 0;
         }
         worst.see(same ? 0 : 1, [&] {
-          return fmt::format("step {}: force ({:.17g}, {:.17g}, {:.17g}) N, from the copied state ({:.17g}, {:.17g}, {:.17g}) "
-                             "N; {}",
-                             k, a.x, a.y, a.z, b.x, b.y, b.z, text_of(c, part, party.seen[i]));
+          return fmt::format(
+              "step {}: force ({:.17g}, {:.17g}, {:.17g}) N, from the copied state ({:.17g}, {:.17g}, {:.17g}) "
+              "N; {}",
+              k, a.x, a.y, a.z, b.x, b.y, b.z, text_of(c, part, party.seen[i]));
         });
       }
     }
@@ -143,7 +144,8 @@ Outcome repeatable(const Subject& subject) {
       });
     }
   });
-  return worst.judged(0, "a law may depend on nothing but its arguments: no static variable, clock, file or random number");
+  return worst.judged(
+      0, "a law may depend on nothing but its arguments: no static variable, clock, file or random number");
 }
 
 Outcome law_allocates(const Subject& subject) {
@@ -165,8 +167,7 @@ Outcome law_trespass(const Subject& subject) {
   each_batch(subject, 117, [&](const Case& c, Part part, LawBench& bench) {
     bench.run();
     const std::string trespass = bench.trespass();
-    worst.see(trespass.empty() ? 0 : 1,
-              [&] { return trespass + "; " + std::string(part_name(part)) + ", " + c.text; });
+    worst.see(trespass.empty() ? 0 : 1, [&] { return trespass + "; " + std::string(part_name(part)) + ", " + c.text; });
   });
   return worst.judged(0, "write n values of the arrays that are marked 'out' in abi.h, and nothing else");
 }

@@ -58,8 +58,8 @@ Outcome law_speed(const Subject& subject) {
       text += fmt::format(", v3 takes {:.2f} of baseline: {}", ratio, ratio <= 0.75 ? "vectorised" : "not vectorised");
     }
   }
-  return {Verdict::info, text,
-          scalar ? "docs/plugins.md, Fast laws, lists what compilers turn into vector code" : "", best, NAN};
+  return {Verdict::info, text, scalar ? "docs/plugins.md, Fast laws, lists what compilers turn into vector code" : "",
+          best, NAN};
 }
 
 }  // namespace scree::core::vet

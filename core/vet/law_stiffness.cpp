@@ -174,9 +174,10 @@ Outcome stiffness_generous(const Subject& subject) {
   for (const Most& most : all)
     if (most.measured[0] > 0)
       worst.see(most.reported[0] / most.measured[0], [&] {
-        return fmt::format("normal stiffness up to {:.4g} N/m reported, up to {:.4g} N/m measured: the time step is {:.1f} "
-                           "times shorter than it need be; {}",
-                           most.reported[0], most.measured[0], std::sqrt(most.reported[0] / most.measured[0]), most.text);
+        return fmt::format(
+            "normal stiffness up to {:.4g} N/m reported, up to {:.4g} N/m measured: the time step is {:.1f} "
+            "times shorter than it need be; {}",
+            most.reported[0], most.measured[0], std::sqrt(most.reported[0] / most.measured[0]), most.text);
       });
   Outcome outcome = worst.judged(3, "report the tangent itself, if no part of the law needs more");
   if (outcome.verdict == Verdict::fail) outcome.verdict = Verdict::note;
@@ -215,13 +216,14 @@ Outcome dashpot_share(const Subject& subject) {
       const double noise = 1e-6 * std::sqrt(c.mass * std::max(c.stiffness, t.normal));
       const Compared pair{shear ? "shear" : "normal", reported, measured <= noise ? 0 : measured, "N s/m"};
       worst.see(excess(pair, noise), [&] {
-        return fmt::format("{} dashpot {:.6g} N s/m reported (share {:.4g}), {:.6g} measured; {}", pair.name, reported, ratio,
-                           measured, text_of(c, part, s));
+        return fmt::format("{} dashpot {:.6g} N s/m reported (share {:.4g}), {:.6g} measured; {}", pair.name, reported,
+                           ratio, measured, text_of(c, part, s));
       });
     }
   });
-  return worst.judged(0.01, "report the dashpots in 'stiffness' as shares of critical damping, not less than they are: "
-                            "they shorten the stable time step");
+  return worst.judged(0.01,
+                      "report the dashpots in 'stiffness' as shares of critical damping, not less than they are: "
+                      "they shorten the stable time step");
 }
 
 }  // namespace scree::core::vet

@@ -39,7 +39,8 @@ class Sizes {
 };
 
 std::string two(const Vec3& a, const Vec3& b) {
-  return fmt::format("force ({:.9g}, {:.9g}, {:.9g}) N against ({:.9g}, {:.9g}, {:.9g}) N", a.x, a.y, a.z, b.x, b.y, b.z);
+  return fmt::format("force ({:.9g}, {:.9g}, {:.9g}) N against ({:.9g}, {:.9g}, {:.9g}) N", a.x, a.y, a.z, b.x, b.y,
+                     b.z);
 }
 
 /// A rotation by a random angle, and what it does to what a law sees.
@@ -94,12 +95,14 @@ Outcome exchange(const Subject& subject) {
       sizes.see(*here);
       for (std::size_t i = 0; i < contacts; ++i)
         worst.see(sizes.share(i, here->force(i) + there.force(i), here->moment(i) + there.moment(i)), [&] {
-          return two(here->force(i), -there.force(i)) + " with the pieces exchanged; " + text_of(c, part, party.seen[i]);
+          return two(here->force(i), -there.force(i)) + " with the pieces exchanged; " +
+                 text_of(c, part, party.seen[i]);
         });
     }
   });
-  return worst.judged(tight, "force and moment on piece 2 must be those on piece 1, reversed (Newton's third law): use "
-                             "'normal', 'r1' and 'r2' so that exchanging the pieces only changes the sign");
+  return worst.judged(tight,
+                      "force and moment on piece 2 must be those on piece 1, reversed (Newton's third law): use "
+                      "'normal', 'r1' and 'r2' so that exchanging the pieces only changes the sign");
 }
 
 Outcome frame_turn(const Subject& subject) {
@@ -129,8 +132,9 @@ Outcome frame_turn(const Subject& subject) {
                   });
     }
   });
-  return worst.judged(tight, "the force must not depend on the axes of the scene (objectivity): build it from 'normal', "
-                             "slip, spin and remembered vectors, never from single components");
+  return worst.judged(tight,
+                      "the force must not depend on the axes of the scene (objectivity): build it from 'normal', "
+                      "slip, spin and remembered vectors, never from single components");
 }
 
 Outcome turns_along(const Subject& subject) {
@@ -163,8 +167,9 @@ Outcome turns_along(const Subject& subject) {
       }
     }
   });
-  return worst.judged(1e-5, "a pair that turns as a whole must keep its forces: pass every remembered vector through "
-                            "'c.turned(...)' or 'c.carried(...)' before it is used");
+  return worst.judged(1e-5,
+                      "a pair that turns as a whole must keep its forces: pass every remembered vector through "
+                      "'c.turned(...)' or 'c.carried(...)' before it is used");
 }
 
 }  // namespace scree::core::vet

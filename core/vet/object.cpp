@@ -109,8 +109,14 @@ Given random_value(const scree_property& p, uint32_t index, Numbers& random) {
 
 scree_value value_of(const Given& g, std::vector<const char*>& pointers) {
   for (const std::string& text : g.texts) pointers.push_back(text.c_str());
-  return {sizeof(scree_value), g.type, g.numbers.empty() ? nullptr : g.numbers.data(), g.rows, g.columns,
-          pointers.empty() ? nullptr : pointers.data(), static_cast<uint32_t>(pointers.size()), 0};
+  return {sizeof(scree_value),
+          g.type,
+          g.numbers.empty() ? nullptr : g.numbers.data(),
+          g.rows,
+          g.columns,
+          pointers.empty() ? nullptr : pointers.data(),
+          static_cast<uint32_t>(pointers.size()),
+          0};
 }
 
 }  // namespace
@@ -259,7 +265,9 @@ Outcome objects_given_back(const Subject& subject) {
   const std::size_t after = ::mallinfo2().uordblks;
   const double lost = after > before ? static_cast<double>(after - before) / rounds : 0;
   Worst worst;
-  worst.see(lost, [&] { return fmt::format("{:.0f} bytes stay taken for every {} objects made and destroyed", lost, all.size()); });
+  worst.see(lost, [&] {
+    return fmt::format("{:.0f} bytes stay taken for every {} objects made and destroyed", lost, all.size());
+  });
   return worst.judged(8, "free in the destructor what the object holds");
 }
 

@@ -50,7 +50,8 @@ class Scene {
     *rows = scene.ids_.size();
     std::vector<double>& values = scene.columns_[{column, component}];
     if (values.empty())
-      for (std::size_t i = 0; i < *rows; ++i) values.push_back(column >= SCREE_RADIUS ? 0.01 : 0.03 * static_cast<double>(i));
+      for (std::size_t i = 0; i < *rows; ++i)
+        values.push_back(column >= SCREE_RADIUS ? 0.01 : 0.03 * static_cast<double>(i));
     return values.data();
   }
   static const uint64_t* ids(void* s, uint64_t* rows) { return *rows = self(s).ids_.size(), self(s).ids_.data(); }
@@ -112,13 +113,14 @@ Outcome process_bits(const Subject& subject) {
         RowBench bench(table_of(subject), row_count, 22, true);
         bench.run(process, isa, block);
         worst.see(bench.bits() == reference.bits() ? 0 : 1, [&] {
-          return fmt::format("{} in blocks of {} gives other bits than baseline in blocks of 256; {}", isa_name(isa), block,
-                             text_of(table_of(subject).object, settings));
+          return fmt::format("{} in blocks of {} gives other bits than baseline in blocks of 256; {}", isa_name(isa),
+                             block, text_of(table_of(subject).object, settings));
         });
       }
   });
-  return worst.judged(0, "a ball's answer must not depend on its place in the block; no function of the C library but "
-                         "sqrt; build with scree_add_plugin()");
+  return worst.judged(0,
+                      "a ball's answer must not depend on its place in the block; no function of the C library but "
+                      "sqrt; build with scree_add_plugin()");
 }
 
 Outcome process_columns(const Subject& subject) {
@@ -130,9 +132,8 @@ Outcome process_columns(const Subject& subject) {
         RowBench bench(table_of(subject), row_count, 23, kept);
         bench.run(process, isa, 100);
         const std::string trespass = bench.trespass();
-        worst.see(trespass.empty() ? 0 : 1, [&] {
-          return "it wrote " + trespass + "; " + text_of(table_of(subject).object, settings);
-        });
+        worst.see(trespass.empty() ? 0 : 1,
+                  [&] { return "it wrote " + trespass + "; " + text_of(table_of(subject).object, settings); });
       }
   });
   return worst.judged(0, "write only columns that are declared as written: a 'const' parameter of 'ball' reads");
@@ -180,12 +181,14 @@ Outcome process_step(const Subject& subject) {
     std::vector<double> state(table.state_words + 8, mark), sums(table.sums + 1, 1.0);
     std::fill_n(state.begin(), table.state_words, 0.0);
     for (uint64_t cycle = 0; cycle < 50; ++cycle) {
-      const scree_step step{sizeof(scree_step), 0, cycle, 1e-5 * static_cast<double>(cycle), 1e-5, sums.data(), state.data(),
-                            scene.host()};
+      const scree_step step{
+          sizeof(scree_step), 0,           cycle, 1e-5 * static_cast<double>(cycle), 1e-5, sums.data(),
+          state.data(),       scene.host()};
       Refused refused;
       if (table.step(process, &step, &refused.table) != 0) {
         if (refused.why[0] == 0)
-          throw Failed("'step' refuses without a reason; " + text_of(table.object, settings), "throw a std::exception that says why");
+          throw Failed("'step' refuses without a reason; " + text_of(table.object, settings),
+                       "throw a std::exception that says why");
         ++refusals;
         break;
       }
@@ -206,7 +209,8 @@ Outcome process_damping(const Subject& subject) {
   for_processes(subject, [&](const void* process, const Settings& settings) {
     const double share = table.damping(process);
     if (!(share >= 0 && share < 1))
-      throw Failed(fmt::format("'damping' is {}; {}", share, text_of(table.object, settings)), "a share, at least 0 and below 1");
+      throw Failed(fmt::format("'damping' is {}; {}", share, text_of(table.object, settings)),
+                   "a share, at least 0 and below 1");
   });
   return passed();
 }

@@ -56,8 +56,10 @@ ProcessState::ProcessState() : float_mode_(float_mode()), rounding_(std::fegetro
   if (const char* name = std::setlocale(LC_ALL, nullptr)) locale_ = name;
   std::error_code error;
   folder_ = std::filesystem::current_path(error).string();
-  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) environment_ += std::string(*entry) + '\n';
-  for (std::size_t number = 1; number < handlers_.size(); ++number) handlers_[number] = handler(static_cast<int>(number));
+  for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry)
+    environment_ += std::string(*entry) + '\n';
+  for (std::size_t number = 1; number < handlers_.size(); ++number)
+    handlers_[number] = handler(static_cast<int>(number));
   files_ = entries("/proc/self/fd");
   threads_ = entries("/proc/self/task");
 }

@@ -47,7 +47,8 @@ RowBench::RowBench(const scree_process& table, std::size_t rows, uint64_t seed, 
     : table_(table), rows_(rows) {
   for (uint32_t k = 0; k < table.need_count; ++k)
     for (uint32_t w = 0; w < words_of(table.needs[k].column); ++w)
-      words_.push_back({table.needs[k].column, table.needs[k].access,
+      words_.push_back({table.needs[k].column,
+                        table.needs[k].access,
                         optional_kept || (table.needs[k].access & SCREE_OPTIONAL) == 0,
                         std::vector<double>(rows + 2 * guard, mark),
                         {}});
@@ -103,11 +104,10 @@ bool RowBench::finite() const {
 
 std::string RowBench::trespass() const {
   for (const Word& word : words_) {
-    const auto same = [&](std::size_t i) {
-      return std::memcmp(&word.values[i], &word.before[i], sizeof(double)) == 0;
-    };
+    const auto same = [&](std::size_t i) { return std::memcmp(&word.values[i], &word.before[i], sizeof(double)) == 0; };
     for (std::size_t i = 0; i < guard; ++i)
-      if (!same(i) || !same(guard + rows_ + i)) return std::string("words beside the column ") + column_name(word.column);
+      if (!same(i) || !same(guard + rows_ + i))
+        return std::string("words beside the column ") + column_name(word.column);
     for (std::size_t i = 0; i < word.values.size(); ++i)
       if ((word.access & SCREE_WRITE) == 0 && !same(i))
         return std::string("the column ") + column_name(word.column) + ", which it only asked to read";

@@ -49,8 +49,9 @@ Outcome outcome_of(const ChildEnd& end, double limit) {
     return failed(fmt::format("did not come to an end within {:g} s", limit),
                   "look for a loop that runs until something converges; --limit gives it more time");
   if (end.signal != 0)
-    return failed("crashed: " + signal_text(end.signal), "run scree vet with --check under a debugger, or with a build "
-                                                         "of the plug-in that has sanitizers");
+    return failed("crashed: " + signal_text(end.signal),
+                  "run scree vet with --check under a debugger, or with a build "
+                  "of the plug-in that has sanitizers");
   return failed(fmt::format("ended the process with exit code {}", end.code),
                 "a plug-in refuses by throwing, never by exit()");
 }
@@ -105,7 +106,8 @@ void require_known(const std::string& only) {
     names.push_back(name);
   }
   const std::string near = nearest_name(only, names);
-  throw Refusal(Exit::usage, "there is no check '" + only + "'" + (near.empty() ? "" : "; did you mean '" + near + "'?") +
+  throw Refusal(Exit::usage, "there is no check '" + only + "'" +
+                                 (near.empty() ? "" : "; did you mean '" + near + "'?") +
                                  "  (scree vet --list names them)");
 }
 

@@ -23,8 +23,9 @@ void WallBench::prepare(const void* wall, const std::vector<Vec3>& centres, doub
   reach_.assign(centres.size(), reach);
   for (auto* column : {&nx_, &ny_, &nz_, &distance_}) std::fill(column->begin(), column->end(), mark);
   for (auto* column : {&ball_, &patch_}) std::fill(column->begin(), column->end(), whole_mark);
-  out_ = {sizeof out_, static_cast<uint32_t>(capacity), ball_.data(), patch_.data(), nx_.data(), ny_.data(), nz_.data(),
-          distance_.data()};
+  out_ = {
+      sizeof out_,     static_cast<uint32_t>(capacity), ball_.data(), patch_.data(), nx_.data(), ny_.data(), nz_.data(),
+      distance_.data()};
   count_ = 0;
 }
 

@@ -48,8 +48,8 @@ Outcome wall_arrays(const Subject& subject) {
       bool equal = mine.size() == alone.size();
       for (std::size_t k = 0; equal && k < mine.size(); ++k) equal = same(mine[k], alone[k]);
       worst.see(equal ? 0 : 1, [&] {
-        return fmt::format("the ball at {} has {} touches alone and {} among others, or others; {}", text_of(centres[i]),
-                           alone.size(), mine.size(), text_of(table_of(subject).object, settings));
+        return fmt::format("the ball at {} has {} touches alone and {} among others, or others; {}",
+                           text_of(centres[i]), alone.size(), mine.size(), text_of(table_of(subject).object, settings));
       });
     }
   });

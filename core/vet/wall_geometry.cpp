@@ -38,14 +38,15 @@ Outcome wall_touches_sound(const Subject& subject) {
       const double off = std::abs(t.normal.norm() - 1);
       const bool twice = !patches.insert(t.patch).second;
       worst.see(std::isfinite(t.distance) && t.ball == 0 && !twice ? off : NAN, [&] {
-        return fmt::format("a ball at {} touches patch {}{} with normal {} at distance {:.6g} m; {}", text_of(x), t.patch,
-                           twice ? " twice" : "", text_of(t.normal), t.distance,
+        return fmt::format("a ball at {} touches patch {}{} with normal {} at distance {:.6g} m; {}", text_of(x),
+                           t.patch, twice ? " twice" : "", text_of(t.normal), t.distance,
                            text_of(table_of(subject).object, settings));
       });
     }
   });
-  Outcome outcome = worst.judged(1e-14, "give a unit normal, a finite distance, the index of the ball, and each patch of a "
-                                        "ball once: contact state belongs to ball and patch");
+  Outcome outcome = worst.judged(1e-14,
+                                 "give a unit normal, a finite distance, the index of the ball, and each patch of a "
+                                 "ball once: contact state belongs to ball and patch");
   if (outcome.verdict == Verdict::pass) outcome.found = fmt::format("{} touches", seen);
   return outcome;
 }
@@ -72,15 +73,17 @@ Outcome wall_slope(const Subject& subject) {
       if (!both || std::abs(here.distance) < 1e-3) continue;
       const double slope = (distance[0] - distance[1]) / (2 * h), expected = -here.normal.dot(way);
       worst.see(std::abs(slope - expected), [&] {
-        return fmt::format("at {} patch {} has normal {}, but along {} its distance changes by {:.6g} a metre instead of "
-                           "{:.6g}; {}",
-                           text_of(x), here.patch, text_of(here.normal), text_of(way), slope, expected,
-                           text_of(table_of(subject).object, settings));
+        return fmt::format(
+            "at {} patch {} has normal {}, but along {} its distance changes by {:.6g} a metre instead of "
+            "{:.6g}; {}",
+            text_of(x), here.patch, text_of(here.normal), text_of(way), slope, expected,
+            text_of(table_of(subject).object, settings));
       });
     }
   });
-  return worst.judged(1e-4, "'distance' is measured along 'normal', from the centre to the surface: its slope is minus the "
-                            "normal, or contacts with this wall make energy");
+  return worst.judged(1e-4,
+                      "'distance' is measured along 'normal', from the centre to the surface: its slope is minus the "
+                      "normal, or contacts with this wall make energy");
 }
 
 Outcome wall_reach(const Subject& subject) {
@@ -95,8 +98,9 @@ Outcome wall_reach(const Subject& subject) {
     std::map<uint32_t, Touch> wide;
     for (const Touch& t : far.touches()) {
       wide[t.patch] = t;
-      worst.see(t.distance < reach ? 0 : 1,
-                [&] { return say(fmt::format("patch {} is {:.6g} m away, asked for {:.6g} m", t.patch, t.distance, reach)); });
+      worst.see(t.distance < reach ? 0 : 1, [&] {
+        return say(fmt::format("patch {} is {:.6g} m away, asked for {:.6g} m", t.patch, t.distance, reach));
+      });
     }
     std::size_t within = 0;
     for (const auto& [patch, t] : wide) within += std::abs(t.distance) < less;
@@ -107,7 +111,8 @@ Outcome wall_reach(const Subject& subject) {
     for (const Touch& t : near.touches()) {
       const auto same = wide.find(t.patch);
       worst.see(same != wide.end() && same->second.distance == t.distance ? 0 : 1, [&] {
-        return say(fmt::format("patch {} has another distance for a smaller reach, or is not there for a larger one", t.patch));
+        return say(fmt::format("patch {} has another distance for a smaller reach, or is not there for a larger one",
+                               t.patch));
       });
     }
   });
@@ -143,7 +148,8 @@ struct Picture {
     ++picture.polygons;
     if (corners < 3) picture.flaw = fmt::format("polygon {} has {} corners", picture.polygons, corners);
     for (uint32_t k = 0; k < 3 * corners; ++k)
-      if (!std::isfinite(xyz[k])) picture.flaw = fmt::format("corner {} of polygon {} is not finite", k / 3, picture.polygons);
+      if (!std::isfinite(xyz[k]))
+        picture.flaw = fmt::format("corner {} of polygon {} is not finite", k / 3, picture.polygons);
   }
 };
 }  // namespace
@@ -159,7 +165,8 @@ Outcome wall_outline(const Subject& subject) {
     if (!picture.flaw.empty()) throw Failed(say(picture.flaw), "give each face at least three corners, cut to the box");
     const double area = table.area != nullptr ? table.area(wall) : 0;
     if (!(area >= 0) || !std::isfinite(area))
-      throw Failed(say(fmt::format("its area is {} m2", area)), "give the area in m2; leave 'area' out when it is unbounded");
+      throw Failed(say(fmt::format("its area is {} m2", area)),
+                   "give the area in m2; leave 'area' out when it is unbounded");
   });
   return passed(fmt::format("{} polygons", picture.polygons));
 }

@@ -27,7 +27,8 @@ class Disk {
     const std::string text = name != nullptr ? name : "";
     std::size_t slashes = 0;
     for (const char c : text) slashes += c == '/';
-    if (text.empty() || text.front() == '/' || text.back() == '/' || slashes > 1 || text.find("..") != std::string::npos)
+    if (text.empty() || text.front() == '/' || text.back() == '/' || slashes > 1 ||
+        text.find("..") != std::string::npos)
       disk.wrong_name = text.empty() ? "(no name)" : text;
     return disk.full ? nullptr : &disk.files[text];
   }
@@ -103,7 +104,8 @@ const scree_writer& table_of(const Subject& subject) { return subject.component-
 /// A recording: frames one after the other, cut by a checkpoint or not.
 class Recording {
  public:
-  Recording(const scree_writer& table, const Settings& settings, Disk& disk) : table_(table), disk_(disk), object_(table.object) {
+  Recording(const scree_writer& table, const Settings& settings, Disk& disk)
+      : table_(table), disk_(disk), object_(table.object) {
     object_.set_all(settings);
     Refused refused;
     if (table.open(object_.get(), "record", disk.table(), &refused.table) != 0)
@@ -141,7 +143,8 @@ void require(bool good, const std::string& what, const std::string& next) {
 
 Outcome writer_frames(const Subject& subject) {
   std::size_t bytes = 0;
-  const double odd[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 5e-324, -1e308};
+  const double odd[] = {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 5e-324,
+                        -1e308};
   for_settings(subject, [&](const Settings& settings) {
     Disk disk;
     Recording recording(table_of(subject), settings, disk);

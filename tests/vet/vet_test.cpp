@@ -45,9 +45,13 @@ struct Seeded {
 
 TEST_CASE("sound plug-ins of every kind fail no check") {
   std::map<std::string, std::size_t> checks;
-  for (const auto& [name, component] :
-       {std::pair{"laws", "sound"}, {"curved", "sound"}, {"curved", "sound_glue"}, {"objects", "sound_wall"},
-        {"objects", "sound_process"}, {"objects", "sound_generator"}, {"objects", "sound_writer"}})
+  for (const auto& [name, component] : {std::pair{"laws", "sound"},
+                                        {"curved", "sound"},
+                                        {"curved", "sound_glue"},
+                                        {"objects", "sound_wall"},
+                                        {"objects", "sound_process"},
+                                        {"objects", "sound_generator"},
+                                        {"objects", "sound_writer"}})
     for (const Row& row : rows(name, component)) {
       INFO(name << ": " << row.component << ": " << row.check << ": " << row.outcome.found);
       CHECK(row.outcome.verdict != Verdict::fail);
@@ -101,11 +105,11 @@ TEST_CASE("defects of nonlinear laws and of bonds are found") {
 }
 
 TEST_CASE("defects of walls, processes, generators and writers are found") {
-  for (const Seeded& seeded : {Seeded{"long_normal", "touches"}, Seeded{"wrong_distance", "slope"},
-                               Seeded{"near_sighted", "wall_reach"}, Seeded{"allocating_process", "no_allocation"},
-                               Seeded{"zero_over_zero", "extremes"}, Seeded{"leaking_process", "given_back"},
-                               Seeded{"counting_generator", "repeatable"}, Seeded{"goes_on", "stops"},
-                               Seeded{"deaf_writer", "full_disk"}, Seeded{"repeating_writer", "resume"}}) {
+  for (const Seeded& seeded :
+       {Seeded{"long_normal", "touches"}, Seeded{"wrong_distance", "slope"}, Seeded{"near_sighted", "wall_reach"},
+        Seeded{"allocating_process", "no_allocation"}, Seeded{"zero_over_zero", "extremes"},
+        Seeded{"leaking_process", "given_back"}, Seeded{"counting_generator", "repeatable"}, Seeded{"goes_on", "stops"},
+        Seeded{"deaf_writer", "full_disk"}, Seeded{"repeating_writer", "resume"}}) {
     INFO(seeded.component << " by " << seeded.check);
     const Outcome found = outcome("objects", seeded.component, seeded.check);
     CHECK(found.verdict == Verdict::fail);
@@ -160,7 +164,10 @@ TEST_CASE("an outcome goes through a pipe as it is") {
   CHECK(back.figure == out.figure);
   CHECK(std::isnan(back.tolerance));
   CHECK_THROWS(Outcome::unpacked("4"));
-  CHECK_THROWS(Outcome::unpacked("9\x1f\x1f\x1f" "0\x1f" "0\x1f"));
+  CHECK_THROWS(
+      Outcome::unpacked("9\x1f\x1f\x1f"
+                        "0\x1f"
+                        "0\x1f"));
 }
 
 TEST_CASE("scree vet: exit codes, JSON, and what is no check, no component and no file") {

@@ -10,7 +10,19 @@
 namespace {
 using namespace scree;
 
-enum Defect { none, long_normal, wrong_distance, near_sighted, allocates, zero_over_zero, leaks, counts, goes_on, deaf, repeats };
+enum Defect {
+  none,
+  long_normal,
+  wrong_distance,
+  near_sighted,
+  allocates,
+  zero_over_zero,
+  leaks,
+  counts,
+  goes_on,
+  deaf,
+  repeats
+};
 
 template <Defect wrong>
 struct Globe {
@@ -107,4 +119,5 @@ SCREE_PLUGIN(scree::wall<Globe<none>>("sound_wall", "1.0.0"), scree::wall<Globe<
              scree::generator<Row<none>>("sound_generator", "1.0.0"),
              scree::generator<Row<counts>>("counting_generator", "1.0.0"),
              scree::generator<Row<goes_on>>("goes_on", "1.0.0"), scree::writer<Lines<none>>("sound_writer", "1.0.0"),
-             scree::writer<Lines<deaf>>("deaf_writer", "1.0.0"), scree::writer<Lines<repeats>>("repeating_writer", "1.0.0"))
+             scree::writer<Lines<deaf>>("deaf_writer", "1.0.0"),
+             scree::writer<Lines<repeats>>("repeating_writer", "1.0.0"))
