@@ -69,7 +69,7 @@ const Substitute substitutes[] = {
 void write_slot(std::size_t at, void* function) {
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
   void* begin = reinterpret_cast<void*>(at / page * page);
-  if (::mprotect(begin, 2 * page, PROT_READ | PROT_WRITE) != 0 && ::mprotect(begin, page, PROT_READ | PROT_WRITE) != 0)
+  if (::mprotect(begin, page, PROT_READ | PROT_WRITE) != 0)
     throw Skipped("this system does not let a table of the linker be changed");
   std::memcpy(reinterpret_cast<void*>(at), &function, sizeof function);
 }

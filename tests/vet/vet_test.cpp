@@ -189,6 +189,8 @@ TEST_CASE("scree vet: exit codes, JSON, and what is no check, no component and n
   const auto component = support::scree({"vet", library("laws").string(), "--component", "sonud"});
   CHECK(component.code == 2);
   CHECK(has(component.err, "did you mean 'sound'?"));
+  CHECK(support::scree({"vet", "linear", "--check", "exported_symbols"}).code == 0);
+  CHECK(has(support::scree({"vet", "linaer"}).err, "there is no file and no plug-in 'linaer'"));
   CHECK(support::scree({"vet", "/nowhere/springs.so"}).code == 4);
   CHECK(support::scree({"vet"}).code == 2);
   CHECK(support::scree({"vet", library("laws").string(), "--limit", "soon"}).code == 2);
