@@ -60,9 +60,10 @@ std::vector<Account> accounts(Party& party, uint32_t steps, double total_time, b
 
 Outcome gives_nothing(const Subject& subject, Part wanted) {
   Worst worst;
+  uint64_t seed = 8200;
   for_cases(subject, 40, 81, [&](const Case& c, Part part) {
     if (part != wanted) return;
-    Party party(c, part, contacts, 82, false);
+    Party party(c, part, contacts, ++seed, false);
     const double time = 100 * c.slow();
     const std::vector<Account> coarse = accounts(party, 60, time, false), fine = accounts(party, 120, time, false);
     std::vector<Account> finest;
@@ -90,9 +91,10 @@ Outcome gives_nothing(const Subject& subject, Part wanted) {
 Outcome balanced(const Subject& subject, Part wanted) {
   Worst worst;
   Worst given;
+  uint64_t seed = 8400;
   for_cases(subject, 40, 83, [&](const Case& c, Part part) {
     if (part != wanted) return;
-    Party party(c, part, contacts, 84, true);
+    Party party(c, part, contacts, ++seed, true);
     const double time = 400 * c.dt;
     const std::vector<Account> coarse = accounts(party, 80, time, true), fine = accounts(party, 160, time, true);
     std::vector<Account> finest;
