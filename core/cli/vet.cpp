@@ -60,7 +60,7 @@ std::string line_of(const Row& row) {
   const vet::Outcome& o = row.outcome;
   const bool wrong = o.verdict == Verdict::fail || o.verdict == Verdict::note;
   std::string out =
-      fmt::format("  {:<4}  {:<20}  {:<20}  {}", verdict_name(o.verdict), row.check, figure_text(o), row.shows);
+      fmt::format("  {:<4}  {:<21}  {:<17}  {}", verdict_name(o.verdict), row.check, figure_text(o), row.shows);
   if (!wrong && !o.found.empty()) out += (o.verdict == Verdict::skip ? ": " : ". ") + o.found;
   out += "\n";
   if (wrong) {
@@ -108,7 +108,7 @@ std::string json_of(const std::filesystem::path& file, const std::vector<Row>& r
 
 std::string list_text() {
   std::string out;
-  for (const auto& [name, shows] : vet::all_checks()) out += fmt::format("{:<20}  {}\n", name, shows);
+  for (const auto& [name, shows] : vet::all_checks()) out += fmt::format("{:<21}  {}\n", name, shows);
   return out;
 }
 

@@ -155,7 +155,7 @@ Outcome generator_balls_sound(const Subject& subject) {
 Outcome generator_stops(const Subject& subject) {
   Worst worst;
   for_generators(subject, [&](const Settings& settings) {
-    for (const std::size_t room : {0, 1}) {
+    for (const std::size_t room : {0u, 1u}) {
       Host host(room, false);
       const std::string why = generated(subject, settings, host);
       const bool good = !host.refused || (!host.went_on && !why.empty());

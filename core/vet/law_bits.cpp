@@ -130,7 +130,7 @@ Outcome bonded_variants(const Subject& subject) {
   if (parts(subject.component->contact_model()).size() == 1) throw Skipped("the law has no bond");
   std::vector<Way> ways;
   for (const bool varying : {false, true})
-    for (const std::size_t size : {128, 7, 1})
+    for (const std::size_t size : {128u, 7u, 1u})
       for (const bool energy : {false, true}) ways.push_back({Isa::baseline, size, varying, energy});
   return on_every_set(subject, {Part::bonded}, ways,
                       "a bonded contact's answer must not depend on how the law is called");

@@ -48,7 +48,7 @@ std::vector<Account> accounts(Party& party, uint32_t steps, double total_time, b
       const bool dropped = party.part != Part::bonded && s.gap >= party.model_case.reach;
       if (dropped) a.lost += a.strain;
       a.strain = bench->energies(0, i);
-      for (const std::size_t term : {1, 2, 3}) {
+      for (const std::size_t term : {1u, 2u, 3u}) {
         a.lost += bench->energies(term, i);
         a.given -= std::min(0.0, bench->energies(term, i));
       }

@@ -22,7 +22,7 @@ struct Measured {
 /// Copies of one contact, each moved a little from where it is: one stays, two for each direction.
 class Probe {
  public:
-  Probe(const Case& c, Part part) : case_(c), bench_(*c.model, part, 1 + 2 * direction_count, c.words) {
+  Probe(const Case& c, Part part) : bench_(*c.model, part, 1 + 2 * direction_count, c.words) {
     bench_.dt = c.slow();
     std::fill(bench_.reach.begin(), bench_.reach.end(), c.reach);
     const double radius = c.r2 > 0 ? std::min(c.r1, c.r2) : c.r1;
@@ -68,7 +68,6 @@ class Probe {
     return std::max((answer(0) - answer(k)) / step, (answer(k + 1) - answer(0)) / step);
   }
 
-  const Case& case_;
   LawBench bench_;
   std::array<Vec3, 3> axes_{};
   double length_ = 0, angle_ = 0;

@@ -109,7 +109,7 @@ Outcome process_bits(const Subject& subject) {
     RowBench reference(table_of(subject), row_count, 22, true);
     reference.run(process, Isa::baseline, SCREE_ROWS);
     for (const Isa isa : usable_sets())
-      for (const std::size_t block : {256, 8, 7, 1}) {
+      for (const std::size_t block : {256u, 8u, 7u, 1u}) {
         RowBench bench(table_of(subject), row_count, 22, true);
         bench.run(process, isa, block);
         worst.see(bench.bits() == reference.bits() ? 0 : 1, [&] {

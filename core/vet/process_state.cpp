@@ -1,5 +1,6 @@
 #include "core/vet/process_state.hpp"
 
+#include <langinfo.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -53,7 +54,8 @@ unsigned float_mode() {
 ProcessState::ProcessState() : float_mode_(float_mode()), rounding_(std::fegetround()) {
   mask_ = ::umask(0);
   ::umask(static_cast<mode_t>(mask_));
-  if (const char* name = std::setlocale(LC_ALL, nullptr)) locale_ = name;
+  // Asked for by what it does to numbers and text.
+  locale_ = std::string(std::localeconv()->decimal_point) + std::localeconv()->thousands_sep + ::nl_langinfo(CODESET);
   std::error_code error;
   folder_ = std::filesystem::current_path(error).string();
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry)

@@ -63,7 +63,7 @@ Outcome wall_overflow(const Subject& subject) {
     const std::vector<Vec3> centres = points(300, 12);
     const uint32_t all = bench.ask(wall, centres, reach, capacity);
     const std::vector<Touch> first = bench.touches();
-    for (const std::size_t room : {0, 1, 2, 7}) {
+    for (const std::size_t room : {0u, 1u, 2u, 7u}) {
       const uint32_t count = bench.ask(wall, centres, reach, room);
       const std::vector<Touch> some = bench.touches();
       bool good = count == all && !bench.trespassed();
