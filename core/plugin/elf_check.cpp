@@ -33,6 +33,24 @@ class ElfFile {
     check_search_paths();
     return check_symbols();
   }
+  ElfFacts facts() {
+    check_header();
+    read_segments();
+    read_dynamic();
+    ElfFacts facts;
+    facts.executable_stack = executable_stack_;
+    for (const Elf64_Dyn& e : entries_) {
+      if (e.d_tag == DT_RPATH || e.d_tag == DT_RUNPATH) facts.search_paths.emplace_back(text(e.d_un.d_val));
+      if (e.d_tag == DT_NEEDED) facts.needed.emplace_back(text(e.d_un.d_val));
+      if (e.d_tag == DT_TEXTREL || (e.d_tag == DT_FLAGS && (e.d_un.d_val & DF_TEXTREL) != 0))
+        facts.text_relocations = true;
+    }
+    for_each_export([&](const Elf64_Sym& symbol, const std::string& name) {
+      facts.exports.push_back(name);
+      if (ELF64_ST_BIND(symbol.st_info) == STB_GNU_UNIQUE) facts.shared.push_back(name);
+    });
+    return facts;
+  }
 
  private:
   [[noreturn]] void refuse(const std::string& why) const { throw Refusal(Exit::plugin, file_.string() + ": " + why); }
@@ -82,6 +100,7 @@ class ElfFile {
         loaded_.push_back(segment);
       }
       if (segment.p_type == PT_DYNAMIC) dynamic_ = segment;
+      if (segment.p_type == PT_GNU_STACK) executable_stack_ = (segment.p_flags & PF_X) != 0;
       if (segment.p_type == PT_INTERP) refuse("a program, not a shared library: link it with scree_add_plugin()");
     }
     if (dynamic_.p_type != PT_DYNAMIC) refuse("it has no dynamic section, so it is not a shared library");
@@ -130,16 +149,21 @@ class ElfFile {
     return last + 1;
   }
 
-  HeaderNumbers check_symbols() const {
+  template <class F>
+  void for_each_export(F f) const {
     const uint64_t table = offset_of(entry(DT_SYMTAB)->d_un.d_ptr), count = symbol_count();
-    bool found = false;
-    Elf64_Sym plugin{};
     for (uint64_t k = 1; k < count; ++k) {
       const auto symbol = read<Elf64_Sym>(table + k * sizeof(Elf64_Sym));
-      const auto binding = ELF64_ST_BIND(symbol.st_info);
-      if (symbol.st_shndx == SHN_UNDEF || binding == STB_LOCAL) continue;
-      const std::string name(text(symbol.st_name));
-      if (binding == STB_GNU_UNIQUE)
+      if (symbol.st_shndx == SHN_UNDEF || ELF64_ST_BIND(symbol.st_info) == STB_LOCAL) continue;
+      f(symbol, std::string(text(symbol.st_name)));
+    }
+  }
+
+  HeaderNumbers check_symbols() const {
+    bool found = false;
+    Elf64_Sym plugin{};
+    for_each_export([&](const Elf64_Sym& symbol, const std::string& name) {
+      if (ELF64_ST_BIND(symbol.st_info) == STB_GNU_UNIQUE)
         refuse("the variable '" + name +
                "' would be shared with other plug-ins (unique binding): build with hidden visibility, as "
                "scree_add_plugin() does");
@@ -149,7 +173,7 @@ class ElfFile {
                "scree_add_plugin() does");
       found = true;
       plugin = symbol;
-    }
+    });
     if (!found)
       refuse(
           "it does not export scree_plugin, so it is not a scree plug-in: end one source file with SCREE_CONTACT_MODEL "
@@ -181,9 +205,14 @@ class ElfFile {
   std::vector<Elf64_Phdr> loaded_;
   std::vector<Elf64_Dyn> entries_;
   uint64_t strings_ = 0, strings_size_ = 0;
+  bool executable_stack_ = false;
 };
 
 }  // namespace
+
+ElfFacts read_elf(std::span<const std::byte> bytes, const std::filesystem::path& file) {
+  return ElfFile(bytes, file).facts();
+}
 
 HeaderNumbers check_elf(std::span<const std::byte> bytes, const std::filesystem::path& file) {
   return ElfFile(bytes, file).check();

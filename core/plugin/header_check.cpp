@@ -16,6 +16,26 @@ uint64_t order(uint32_t major, uint32_t minor) { return (uint64_t{major} << 32) 
 
 bool known_kind(uint32_t kind) { return kind >= SCREE_CONTACT_MODEL && kind <= SCREE_WRITER; }
 
+std::vector<const scree_component*> sound_components(const scree_plugin_header& header,
+                                                     const std::filesystem::path& file) {
+  std::set<std::pair<uint32_t, std::string_view>> seen;
+  std::vector<const scree_component*> list;
+  const auto* first = reinterpret_cast<const char*>(header.components);
+  if (first == nullptr) refuse(file, "its list of components is empty: name them in SCREE_PLUGIN(...)");
+  for (uint32_t k = 0; k < header.component_count; ++k) {
+    // The stride is the plug-in's own size: its components may be longer than those known here.
+    const auto& c = *reinterpret_cast<const scree_component*>(first + std::size_t{k} * header.component_size);
+    if (c.name == nullptr || c.version == nullptr || c.table == nullptr || !known_kind(c.kind))
+      refuse(file, "component " + std::to_string(k + 1) +
+                       " has no name, version, table or known kind: build it with the SDK's SCREE_PLUGIN");
+    if (!seen.insert({c.kind, c.name}).second)
+      refuse(file, std::string("it holds two ") + kind_name(static_cast<Kind>(c.kind)) + " components named '" +
+                       c.name + "': give each its own name");
+    list.push_back(&c);
+  }
+  return list;
+}
+
 }  // namespace
 
 void check_numbers(const HeaderNumbers& n, const std::filesystem::path& file) {
@@ -40,26 +60,23 @@ void check_numbers(const HeaderNumbers& n, const std::filesystem::path& file) {
                      " components, 1 to 256 are allowed: name them in SCREE_PLUGIN(...)");
 }
 
+std::vector<std::pair<Kind, std::string>> components_of(const scree_plugin_header& header,
+                                                        const std::filesystem::path& file) {
+  std::vector<std::pair<Kind, std::string>> list;
+  for (const scree_component* c : sound_components(header, file))
+    list.emplace_back(static_cast<Kind>(c->kind), c->name);
+  return list;
+}
+
 const scree_component& find_component(const scree_plugin_header& header, Kind kind, const std::string& name,
                                       const std::filesystem::path& file) {
-  std::set<std::pair<uint32_t, std::string_view>> seen;
   const scree_component* wanted = nullptr;
   const scree_component* other_kind = nullptr;
   std::string listed;
-  const auto* first = reinterpret_cast<const char*>(header.components);
-  if (first == nullptr) refuse(file, "its list of components is empty: name them in SCREE_PLUGIN(...)");
-  for (uint32_t k = 0; k < header.component_count; ++k) {
-    // The stride is the plug-in's own size: its components may be longer than those known here.
-    const auto& c = *reinterpret_cast<const scree_component*>(first + std::size_t{k} * header.component_size);
-    if (c.name == nullptr || c.version == nullptr || c.table == nullptr || !known_kind(c.kind))
-      refuse(file, "component " + std::to_string(k + 1) +
-                       " has no name, version, table or known kind: build it with the SDK's SCREE_PLUGIN");
-    if (!seen.insert({c.kind, c.name}).second)
-      refuse(file, std::string("it holds two ") + kind_name(static_cast<Kind>(c.kind)) + " components named '" +
-                       c.name + "': give each its own name");
-    listed += (listed.empty() ? "" : ", ") + std::string(kind_name(static_cast<Kind>(c.kind))) + " '" + c.name + "'";
-    if (c.name != name) continue;
-    (c.kind == static_cast<uint32_t>(kind) ? wanted : other_kind) = &c;
+  for (const scree_component* c : sound_components(header, file)) {
+    listed += (listed.empty() ? "" : ", ") + std::string(kind_name(static_cast<Kind>(c->kind))) + " '" + c->name + "'";
+    if (c->name != name) continue;
+    (c->kind == static_cast<uint32_t>(kind) ? wanted : other_kind) = c;
   }
   if (wanted) return *wanted;
   if (other_kind) {

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/plugin/catalogue.hpp"
 #include "core/plugin/elf_check.hpp"
@@ -16,5 +18,9 @@ void check_numbers(const HeaderNumbers& numbers, const std::filesystem::path& fi
 /// another kind, or the list of components is not sound.
 const scree_component& find_component(const scree_plugin_header& header, Kind kind, const std::string& name,
                                       const std::filesystem::path& file);
+
+/// Kind and name of every component of a loaded library. Throws Refusal(Exit::plugin) when the list is not sound.
+std::vector<std::pair<Kind, std::string>> components_of(const scree_plugin_header& header,
+                                                        const std::filesystem::path& file);
 
 }  // namespace scree::core

@@ -48,6 +48,47 @@ class FloatMode {
   throw Refusal(Exit::plugin, file.string() + ": " + why);
 }
 
+void* open_library(const fs::path& file) {
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (handle) return handle;
+  const char* reason = dlerror();
+  std::string why = reason ? reason : "unknown reason";
+  if (const std::string prefix = file.string() + ": "; why.rfind(prefix, 0) == 0) why.erase(0, prefix.size());
+  refuse(file, "the system cannot load it: " + why +
+                   ": link every library it uses in scree_add_plugin(... LIBRARIES ...), and install them");
+}
+
+/// A library that passed the checks of its file and is open.
+struct Opened {
+  fs::path real;
+  std::string sha256;
+  const scree_plugin_header* header = nullptr;
+  bool changed_float_mode = false;
+};
+
+Opened open_checked(const fs::path& file) {
+  std::error_code error;
+  Opened opened;
+  opened.real = fs::canonical(file, error);
+  const fs::path& real = opened.real;
+  if (error) refuse(file, "cannot be read: " + error.message() + ": check the file and its permissions");
+  for (const fs::path& path : {file.parent_path().parent_path(), file.parent_path(), real.parent_path(), real})
+    require_trusted(path);
+  const std::vector<std::byte> bytes = read_library(real);
+  check_numbers(check_elf(bytes, real), real);
+  opened.sha256 = sha256(bytes);
+
+  FloatMode mode;
+  void* handle = open_library(real);
+  opened.changed_float_mode = mode.restore();
+  opened.header = static_cast<const scree_plugin_header*>(dlsym(handle, "scree_plugin"));
+  if (opened.header == nullptr)
+    refuse(real, "the system does not find scree_plugin in it: build it with scree_add_plugin()");
+  return opened;
+}
+
+}  // namespace
+
 std::vector<std::byte> read_library(const fs::path& file) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) refuse(file, "not a file: a plug-in is a shared library");
@@ -61,47 +102,31 @@ std::vector<std::byte> read_library(const fs::path& file) {
   return bytes;
 }
 
-void* open_library(const fs::path& file) {
-  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (handle) return handle;
-  const char* reason = dlerror();
-  std::string why = reason ? reason : "unknown reason";
-  if (const std::string prefix = file.string() + ": "; why.rfind(prefix, 0) == 0) why.erase(0, prefix.size());
-  refuse(file, "the system cannot load it: " + why +
-                   ": link every library it uses in scree_add_plugin(... LIBRARIES ...), and install them");
-}
-
-}  // namespace
-
 Loaded load_component(Kind kind, const std::string& name, const fs::path& file) {
-  std::error_code error;
-  const fs::path real = fs::canonical(file, error);
-  if (error) refuse(file, "cannot be read: " + error.message() + ": check the file and its permissions");
-  for (const fs::path& path : {file.parent_path().parent_path(), file.parent_path(), real.parent_path(), real})
-    require_trusted(path);
-  const std::vector<std::byte> bytes = read_library(real);
-  check_numbers(check_elf(bytes, real), real);
-
-  FloatMode mode;
   StdoutCatch said;
-  void* handle = open_library(real);
-  bool changed = mode.restore();
-  const auto* header = static_cast<const scree_plugin_header*>(dlsym(handle, "scree_plugin"));
-  if (header == nullptr) refuse(real, "the system does not find scree_plugin in it: build it with scree_add_plugin()");
-  const scree_component& entry = find_component(*header, kind, name, real);
+  const Opened opened = open_checked(file);
+  const fs::path& real = opened.real;
+  const scree_component& entry = find_component(*opened.header, kind, name, real);
+  FloatMode mode;
   const void* table = entry.table();
-  changed = mode.restore() || changed;
+  const bool changed = mode.restore() || opened.changed_float_mode;
   check_table(kind, name, table, real);
 
   Loaded loaded;
+  loaded.changed_float_mode = changed;
   if (changed)
     loaded.remarks.push_back(
         "changed the floating-point mode when it was loaded, which was put back: build it without -ffast-math");
   if (const std::string text = said.take(); !text.empty())
     loaded.remarks.push_back("wrote to stdout when it was loaded, which was kept out of the results ('" + text +
                              "'): remove what writes there");
-  loaded.component = {kind, entry.name, entry.version, entry.doc ? entry.doc : "", real, sha256(bytes), table};
+  loaded.component = {kind, entry.name, entry.version, entry.doc ? entry.doc : "", real, opened.sha256, table};
   return loaded;
+}
+
+std::vector<std::pair<Kind, std::string>> list_components(const fs::path& file) {
+  const Opened opened = open_checked(file);
+  return components_of(*opened.header, opened.real);
 }
 
 }  // namespace scree::core

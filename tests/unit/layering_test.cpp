@@ -22,7 +22,8 @@ const std::map<std::string, std::set<std::string>> may_include = {
     {"core/scene", {"sdk", "core/base", "core/plugin", "core/scene"}},
     {"core/run",
      {"sdk", "core/base", "core/world", "core/plugin", "core/contact", "core/cycle", "core/scene", "core/run"}},
-    {"core/cli", {"sdk", "core/base", "core/plugin", "core/scene", "core/run", "core/cli"}},
+    {"core/vet", {"sdk", "core/base", "core/plugin", "core/vet"}},
+    {"core/cli", {"sdk", "core/base", "core/plugin", "core/scene", "core/run", "core/vet", "core/cli"}},
     {"core", {"core/cli", "core/base"}},  // main.cpp
 };
 

@@ -1,0 +1,79 @@
+#include "core/vet/loaded_object.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace scree::core::vet {
+
+namespace {
+
+int add_object(dl_phdr_info* info, std::size_t, void* list) {
+  LoadedObject object;
+  object.name = info->dlpi_name;
+  object.base = info->dlpi_addr;
+  object.segments.assign(info->dlpi_phdr, info->dlpi_phdr + info->dlpi_phnum);
+  static_cast<std::vector<LoadedObject>*>(list)->push_back(std::move(object));
+  return 0;
+}
+
+}  // namespace
+
+std::vector<LoadedObject> loaded_objects() {
+  std::vector<LoadedObject> list;
+  ::dl_iterate_phdr(add_object, &list);
+  return list;
+}
+
+bool LoadedObject::holds(const void* address) const {
+  const auto at = reinterpret_cast<std::size_t>(address);
+  return std::any_of(segments.begin(), segments.end(), [&](const ElfW(Phdr) & s) {
+    return s.p_type == PT_LOAD && at >= base + s.p_vaddr && at < base + s.p_vaddr + s.p_memsz;
+  });
+}
+
+LoadedObject object_of(const void* address) {
+  for (LoadedObject& object : loaded_objects())
+    if (object.holds(address)) return object;
+  throw std::runtime_error("the function lies in no loaded library");
+}
+
+std::vector<std::span<const std::byte>> LoadedObject::writable() const {
+  // Relocation is over before anything of the library runs; that part is whole pages.
+  std::size_t fixed_begin = 0, fixed_end = 0;
+  const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+  for (const auto& s : segments)
+    if (s.p_type == PT_GNU_RELRO) {
+      fixed_begin = base + s.p_vaddr;
+      fixed_end = (base + s.p_vaddr + s.p_memsz) / page * page;
+    }
+  std::vector<std::span<const std::byte>> list;
+  const auto add = [&](std::size_t begin, std::size_t end) {
+    if (begin < end) list.emplace_back(reinterpret_cast<const std::byte*>(begin), end - begin);
+  };
+  for (const auto& s : segments) {
+    if (s.p_type != PT_LOAD || (s.p_flags & PF_W) == 0) continue;
+    const std::size_t begin = base + s.p_vaddr, end = begin + s.p_memsz;
+    if (fixed_begin >= begin && fixed_begin < end) {
+      add(begin, fixed_begin);
+      add(std::min(fixed_end, end), end);
+    } else {
+      add(begin, end);
+    }
+  }
+  return list;
+}
+
+MemoryPicture::MemoryPicture(const LoadedObject& object) : ranges_(object.writable()) {
+  for (const auto& range : ranges_) bytes_.emplace_back(range.begin(), range.end());
+}
+
+std::size_t MemoryPicture::changed() const {
+  std::size_t count = 0;
+  for (std::size_t r = 0; r < ranges_.size(); ++r)
+    for (std::size_t k = 0; k < ranges_[r].size(); ++k) count += ranges_[r][k] != bytes_[r][k];
+  return count;
+}
+
+}  // namespace scree::core::vet
