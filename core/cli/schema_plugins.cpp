@@ -59,11 +59,11 @@ Json shape(const scree_property& property) {
     case SCREE_TEXT:
       return one_word(property);
     case SCREE_NUMBERS:
-      return number_or_list(property, property.words, property.words < 2);
+      return number_or_list(property, property.words < 2 ? 0 : property.words, property.words < 2);
     case SCREE_VECTORS: {
       Json out{{"type", "array"}, {"items", number_or_list(property, 3, false)}};
-      if (property.words != 0) out = with(out, {{"minItems", property.words / 3}, {"maxItems", property.words / 3}});
-      return out;
+      const uint32_t length = property.words / 3;
+      return length == 0 ? out : with(out, {{"minItems", length}, {"maxItems", length}});
     }
     case SCREE_TEXTS: {
       const Json word = one_word(property);
@@ -131,10 +131,11 @@ std::vector<std::string> required_of(const Component& component) {
   return out;
 }
 
+/// The kernel's own keys are looked at beside the branches; a branch only lets them pass.
 Json chosen(const Component& component, const std::string& key, const Json& own) {
-  Json properties{{key, Json::object()}};
-  properties.update(own);
-  properties.update(properties_of(component));
+  Json properties = properties_of(component);
+  properties[key] = Json::object();
+  for (const auto& [name, schema] : own.items()) properties[name] = Json::object();
   Json out = mapping(std::move(properties), required_of(component));
   if (Json pairs = apart(component); !pairs.empty()) out["allOf"] = std::move(pairs);
   return out;
@@ -200,9 +201,8 @@ Json rule(const Components& components) {
   Json& model = out["properties"]["model"];
   model["enum"].push_back("none");
   model["enumDescriptions"].push_back("these pieces do not interact");
-  Json none = own;
-  none["model"] = Json::object();
-  out["allOf"].push_back(when("model", "none", mapping(std::move(none))));
+  const Json none = mapping({{"name", Json::object()}, {"between", Json::object()}, {"model", Json::object()}});
+  out["allOf"].push_back(when("model", "none", none));
   return out;
 }
 

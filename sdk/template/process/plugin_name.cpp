@@ -25,6 +25,12 @@ struct PluginName {
     double lost;  ///< J
   };
 
+  // Before the first cycle: look up walls, refuse by throwing, and say what will be published.
+  void prepare(const Host& host) const {
+    host.publish("power", 0);
+    host.publish("lost", 0);
+  }
+
   // Between cycles, on one thread, on the columns of all balls; leave it out where `ball` is all there is to do.
   void step(Step& step, State& state) {
     const auto mass = step.host.column(SCREE_MASS, 0);
