@@ -10,7 +10,9 @@ const std::vector<Command>& commands() {
       {"explain", "SCENE", "what the run will open, store, do and leave out, and why", declare_explain},
       {"list", "[KIND]", "the plug-ins that are found, and where", declare_list},
       {"show", "NAME", "one plug-in: its keys, units, ranges, defaults", declare_show},
+      {"new", "KIND NAME", "a folder with a plug-in of your own that builds and passes its test", declare_new},
       {"vet", "LIB", "conformance checks of a plug-in library, for its author", declare_vet},
+      {"schema", "", "the JSON Schema of scenes, for editors", declare_schema},
       {"demo", "", "a real job: a mould filled with stones", declare_demo}};
   return all;
 }

@@ -30,6 +30,8 @@ Deed declare_explain(CLI::App& app);
 Deed declare_list(CLI::App& app);
 Deed declare_show(CLI::App& app);
 Deed declare_vet(CLI::App& app);
+Deed declare_new(CLI::App& app);
+Deed declare_schema(CLI::App& app);
 Deed declare_demo(CLI::App& app);
 
 }  // namespace scree::core

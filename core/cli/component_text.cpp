@@ -70,6 +70,8 @@ void declared_by_law(const scree_contact_model& model, std::vector<std::string>&
   if ((model.flags & SCREE_GIVES_MOMENT) != 0) out.push_back("gives a moment beside that of its force");
   if ((model.flags & SCREE_NONLINEAR) != 0) out.push_back("its stiffness changes with the gap");
   if ((model.flags & SCREE_CAN_BOND) != 0) out.push_back("can bond");
+  if (model.reach != nullptr) out.push_back("acts across a gap");
+  if (model.uniform_energy[0] != nullptr) out.push_back("accounts for its energy");
   if (model.normal_only[0] != nullptr) out.push_back("a rule without a tangential part runs a law of its own");
 }
 
@@ -88,6 +90,7 @@ void declared_by_process(const scree_process& process, std::vector<std::string>&
       out.push_back(std::string((need.access & SCREE_WRITE) != 0 ? "writes " : "reads ") + columns[need.column] +
                     ((need.access & SCREE_OPTIONAL) != 0 ? " where the scene keeps it" : ""));
   }
+  if ((process.flags & SCREE_LOCAL_DAMPING) != 0) out.push_back("damps locally, which shortens the time step");
   if (process.state_words > 0) out.push_back(fmt::format("saves {} numbers", process.state_words));
 }
 
@@ -96,6 +99,7 @@ void declared_by_writer(const scree_writer& writer, std::vector<std::string>& ou
   if ((writer.wants & SCREE_WANTS_BALLS) != 0) out.push_back("writes balls and their fields");
   if ((writer.wants & SCREE_WANTS_CONTACTS) != 0) out.push_back("writes contacts when their fields are asked for");
   if ((writer.wants & SCREE_WANTS_WALLS) != 0) out.push_back("writes walls");
+  if (writer.save != nullptr) out.push_back("has a memory that checkpoints save");
 }
 
 /// Where in a scene a kind stands: the lines before its own keys, and the indent of those.
@@ -166,7 +170,7 @@ std::string component_text(const Component& component) {
     }
   if (!any) out += "  none\n";
   if (const auto lines = declared(component); !lines.empty()) {
-    out += "\n";
+    out += "\nstates and flags\n";
     for (const std::string& line : lines) out += "  " + line + "\n";
   }
   return out + "\nin a scene\n" + snippet(component);

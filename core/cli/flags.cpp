@@ -132,11 +132,15 @@ void declare_json(CLI::App& app, bool& json, const std::string& what) {
   app.add_flag("--json", json, what + " as JSON on stdout");
 }
 
-std::string data_folder() {
+std::string program_prefix() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return "";
-  const fs::path folder = program.parent_path().parent_path() / SCREE_DATA_DIR;
+  return error ? "" : program.parent_path().parent_path().string();
+}
+
+std::string data_folder() {
+  std::error_code error;
+  const fs::path folder = fs::path(program_prefix()) / SCREE_DATA_DIR;
   return fs::is_directory(folder, error) ? folder.string() : "";
 }
 

@@ -47,8 +47,11 @@ struct RunFlags {
 /// --json of commands that print a result.
 void declare_json(CLI::App& app, bool& json, const std::string& what);
 
-/// A folder with the data of the program (examples, configs): share/scree beside bin/ in the build tree as in an
-/// installation; "" when there is none.
+/// The folder that holds bin/ with this program, as find_package wants it; "" when the system does not tell.
+std::string program_prefix();
+
+/// A folder with the data of the program (examples, configs, template): share/scree beside bin/ in the build tree as in
+/// an installation; "" when there is none.
 std::string data_folder();
 /// Where scenes find fragments and files besides their own folder.
 std::vector<std::string> installed_configs();

@@ -51,7 +51,7 @@ TEST_CASE("help and version exit 0 and go to stdout") {
   const ProgramEnd version = scree({"--version"});
   CHECK(version.code == 0);
   CHECK(version.out == "scree " SCREE_VERSION "\n");
-  for (const char* command : {"run", "resume", "check", "explain", "list", "show", "vet", "demo"}) {
+  for (const char* command : {"run", "resume", "check", "explain", "list", "show", "new", "vet", "schema", "demo"}) {
     const ProgramEnd end = scree({command, "-h"});
     INFO(command);
     CHECK(end.code == 0);
@@ -195,7 +195,9 @@ TEST_CASE("show prints keys with units, ranges and defaults") {
   CHECK(has(end.out, "kn: number, N/m, at least 0"));
   CHECK(has(end.out, "fric: number, at least 0, default 0"));
   CHECK(has(end.out, "in the form 'emod kratio'"));
-  CHECK(has(end.out, "remembers spring: 3 numbers, N"));
+  CHECK(has(end.out, "states and flags\n  remembers spring: 3 numbers, N\n"));
+  CHECK(has(end.out, "  accounts for its energy\n"));
+  CHECK(has(scree({"show", "local_damping"}).out, "  damps locally, which shortens the time step\n"));
   const ProgramEnd wrong = scree({"show", "liner"});
   CHECK(wrong.code == 4);
   CHECK(has(wrong.err, "no plug-in 'liner' is installed; did you mean 'linear'?"));

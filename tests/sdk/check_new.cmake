@@ -1,0 +1,25 @@
+# Makes a folder with `scree new`, builds it with COMPILER and runs its tests. An installed scree under PREFIX.
+function(must)
+  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    string(JOIN " " words ${ARGV})
+    message(FATAL_ERROR "${words}\nended with ${result}:\n${output}")
+  endif()
+endfunction()
+
+# Only what was installed counts.
+unset(ENV{SCREE_PLUGIN_PATH})
+set(ENV{XDG_DATA_HOME} ${FOLDER})
+set(ENV{CXXFLAGS} "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror")
+set(made ${FOLDER}/${KIND}/${NAME})
+file(REMOVE_RECURSE ${made})
+must(${PREFIX}/bin/scree new ${KIND} ${NAME} -o ${FOLDER}/${KIND})
+must(${CMAKE_COMMAND} -S ${made} --preset scree -DCMAKE_CXX_COMPILER=${COMPILER}
+     "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}")
+must(${CMAKE_COMMAND} --build ${made}/build)
+must(${CMAKE_CTEST_COMMAND} --test-dir ${made}/build --output-on-failure --no-tests=error)
+file(READ ${made}/scree.schema.json schema)
+string(FIND "${schema}" "\"${NAME}\"" found)
+if(found EQUAL -1)
+  message(FATAL_ERROR "the schema that the build made does not know '${NAME}'")
+endif()
