@@ -172,6 +172,14 @@ bool geometry(WallList& list, const WallPass& pass, const Touches& touches, std:
   return beyond;
 }
 
+void gather_columns(const WallList& list, std::size_t words, std::size_t varying, std::size_t first, uint32_t n,
+                    Scratch& s) {
+  for (std::size_t w = 0; w < words; ++w)
+    for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[(first + k) * words + w];
+  for (std::size_t v = 0; v < varying; ++v)
+    for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[(first + k) * varying + v];
+}
+
 void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, Scratch& s) {
   const BallView& b = *pass.balls;
   const bool spin = pass.stride == Slices::with_spin && !pass.rule->normal_only();
@@ -262,16 +270,32 @@ int64_t run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
     if (geometry(list, pass, touches, first, n, s) && worst < 0)
       for (uint32_t k = 0; k < n && worst < 0; ++k)
         if (-s.gap[k] > pass.overlap_limit * s.r1[k]) worst = static_cast<int64_t>(first + k);
-    for (std::size_t w = 0; w < words; ++w)
-      for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[(first + k) * words + w];
-    for (std::size_t v = 0; v < varying; ++v)
-      for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[(first + k) * varying + v];
+    gather_columns(list, words, varying, first, n, s);
     run_law(*pass.rule, n, pass.dt, s);
     for (std::size_t w = 0; w < words; ++w)
       for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
     scatter(list, pass, first, n, s);
   }
   return worst;
+}
+
+double wall_list_stiffness(const WallList& list, const WallPass& pass, Scratch& s) {
+  thread_local Touches touches;
+  if (list.slots.empty() || list.candidates.empty()) return 0;
+  // A copy: it is lined up with the touches of now, the list itself waits for the next pass.
+  WallList now = list;
+  ask(*pass.wall, *pass.balls, now.candidates.data(), now.candidates.size(), pass.rule->reach, touches);
+  carry_over(now, touches, pass);
+  Tangents t;
+  double sum = 0;
+  for (std::size_t first = 0; first < now.slots.size(); first += SCREE_BATCH) {
+    const auto n = static_cast<uint32_t>(std::min<std::size_t>(SCREE_BATCH, now.slots.size() - first));
+    geometry(now, pass, touches, first, n, s);
+    gather_columns(now, pass.rule->state_words(), pass.rule->varying.size(), first, n, s);
+    tangents(*pass.rule, n, s, t);
+    for (uint32_t k = 0; k < n; ++k) sum += t.normal[k];
+  }
+  return sum;
 }
 
 }  // namespace scree::core

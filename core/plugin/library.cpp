@@ -87,13 +87,14 @@ Loaded load_component(Kind kind, const std::string& name, const fs::path& file) 
   const auto* header = static_cast<const scree_plugin_header*>(dlsym(handle, "scree_plugin"));
   if (header == nullptr) refuse(real, "the system does not find scree_plugin in it: build it with scree_add_plugin()");
   const scree_component& entry = find_component(*header, kind, name, real);
-  const void* table = entry.table();
+  const void* theirs = entry.table();
   changed = mode.restore() || changed;
-  check_table(kind, name, table, real);
+  const std::shared_ptr<const void> table = checked_table(kind, name, theirs, real);
 
   Loaded loaded;
   loaded.changed_float_mode = changed;
-  loaded.component = {kind, entry.name, entry.version, entry.doc ? entry.doc : "", real, sha256(bytes), table};
+  loaded.component = {kind, entry.name,    entry.version, entry.doc ? entry.doc : "",
+                      real, sha256(bytes), table.get(),   table};
   return loaded;
 }
 

@@ -24,7 +24,6 @@ struct Wall {
   std::array<double, 4> turn{1, 0, 0, 0};    ///< unit quaternion w x y z from the geometry's frame to the scene's
   std::array<double, 3> force{}, moment{};   ///< on the wall at the last force pass, N, N m about `centre`
   uint64_t contacts = 0;                     ///< active ones at the last force pass
-  double stiffness = 0;                      ///< sum over its listed contacts, N/m
 
   bool turned() const { return turn[0] != 1.0; }
   /// Centre of a ball in the geometry's frame.
