@@ -36,11 +36,13 @@ void write_balls(const std::filesystem::path& folder, int cells, double edge) {
         }
 }
 
-std::string scene_text(double length, const std::string& balls, bool friction, bool settling) {
+std::string scene_text(double length, const std::string& balls, const std::string& model, bool friction,
+                       bool settling) {
   const std::string edge = std::to_string(length);
   return "scree: 1\ntitle: dense packing\ntimestep: 1.0e-3\nskin: 0.1\ncell: {low: [0, 0, 0], high: [" + edge + ", " +
          edge + ", " + edge + "], periodic: [x, y, z]}\nballs:\n  grains: {generator: file, path: " + balls +
-         ", density: 1.909859}\ncontacts:\n  - {name: grains, between: [grains, grains], model: linear, kn: 2000, "
+         ", density: 1.909859}\ncontacts:\n  - {name: grains, between: [grains, grains], model: " + model +
+         ", kn: 2000, "
          "ks: " +
          (friction ? "571.4286, fric: 0.5" : "0, fric: 0") + ", dp_nratio: 0.4}\n" +
          (settling ? "processes:\n  calm: {process: local_damping, factor: 0.7}\n" : "") +
@@ -62,7 +64,8 @@ std::unique_ptr<core::Simulation> simulation_of(const std::filesystem::path& fol
 
 // The lattice comes to rest with friction once per size; both packings then start from the same places at rest.
 void settle(const std::filesystem::path& folder, double length, const Setting& setting, core::Catalogue& catalogue) {
-  const auto simulation = simulation_of(folder, scene_text(length, "balls.csv", true, true), setting, catalogue);
+  const auto simulation =
+      simulation_of(folder, scene_text(length, "balls.csv", setting.model, true, true), setting, catalogue);
   const core::Balls& balls = simulation->engine.balls;
   const std::size_t cycles = std::clamp<std::size_t>(60000000 / balls.size(), 150, 2000);
   for (std::size_t cycle = 0; cycle < cycles; ++cycle) simulation->engine.advance();
@@ -86,8 +89,8 @@ std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Ca
     write_balls(folder, cells, edge);
     settle(folder, cells * edge, setting, catalogue);
   }
-  auto simulation =
-      simulation_of(folder, scene_text(cells * edge, "settled.csv", setting.friction, false), setting, catalogue);
+  auto simulation = simulation_of(
+      folder, scene_text(cells * edge, "settled.csv", setting.model, setting.friction, false), setting, catalogue);
   for (int cycle = 0; cycle < 40; ++cycle) simulation->engine.advance();
   return simulation;
 }

@@ -22,9 +22,7 @@ static_assert(sizeof(scree_property) > scree::core::first_size<scree_property>);
 
 const double unread = std::numeric_limits<double>::quiet_NaN();  // of fields that the old library does not know
 
-Catalogue old_catalogue() {
-  return Catalogue({{std::filesystem::path(support::binary_dir()) / "tests" / "old"}, {}});
-}
+Catalogue old_catalogue() { return Catalogue({{std::filesystem::path(support::binary_dir()) / "tests" / "old"}, {}}); }
 
 /// Fields that came later read as zero, in the table and in each of its properties.
 template <class T>
