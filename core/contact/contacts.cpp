@@ -170,7 +170,8 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
 }
 
 double Contacts::wall_stiffness(std::size_t wall, const Balls& balls, const std::vector<Wall>& walls) {
-  if (!built_ || scratch_.empty()) return 0;
+  if (!built_) return 0;
+  if (scratch_.empty()) scratch_.resize(1);  // a resumed run may ask before its first pass
   const BallView view(balls);
   double sum = 0;
   for (const WallList& list : wall_lists_) {

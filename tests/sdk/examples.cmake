@@ -25,6 +25,16 @@ foreach(compiler GXX CLANGXX)
     set_tests_properties("sdk: ${example} built by ${name} measures what it says" PROPERTIES
                          FIXTURES_REQUIRED "scree_prefix;scree_examples_${name}" FIXTURES_SETUP scree_run_${example}_${name})
   endforeach()
+  add_test(NAME "sdk: piston built by ${name} finds its wall after an edit"
+           COMMAND ${prefix}/bin/scree run ${CMAKE_CURRENT_LIST_DIR}/piston_after_edit.yaml --plugins ${folder}/build/plugins
+                   --restart -j 1 -o ${folder}/out/piston_after_edit)
+  set_tests_properties("sdk: piston built by ${name} finds its wall after an edit" PROPERTIES
+                       FIXTURES_REQUIRED "scree_prefix;scree_examples_${name}")
+  add_test(NAME "sdk: piston built by ${name} resumes bit for bit"
+           COMMAND ${CMAKE_COMMAND} -DSCREE=${prefix}/bin/scree -DSCENE=${folder}/piston/scene.yaml
+                   -DPLUGINS=${folder}/build/plugins -DFOLDER=${folder}/out -P ${CMAKE_CURRENT_LIST_DIR}/check_resume.cmake)
+  set_tests_properties("sdk: piston built by ${name} resumes bit for bit" PROPERTIES
+                       FIXTURES_REQUIRED "scree_prefix;scree_examples_${name}")
   add_test(NAME "sdk: frames of xyz built by ${name} read back"
            COMMAND ${CMAKE_COMMAND} -DFRAMES=${folder}/out/xyz/frames -P ${CMAKE_CURRENT_LIST_DIR}/check_frames.cmake)
   set_tests_properties("sdk: frames of xyz built by ${name} read back" PROPERTIES

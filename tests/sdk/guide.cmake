@@ -1,4 +1,4 @@
-# The first chapter of the author's guide as it is written, and each public header alone.
+# The first chapter of the author's guide as it is written, and each header that an author includes alone.
 add_test(NAME "sdk: the first law of the guide is written, built and run"
          COMMAND bash ${CMAKE_CURRENT_LIST_DIR}/run_guide.sh ${PROJECT_SOURCE_DIR}/docs/plugins.md ${prefix}
                  ${PROJECT_BINARY_DIR}/tests/guide)
@@ -9,9 +9,9 @@ set(alone "-std=c++20 -fopenmp-simd -fsyntax-only -Wall -Wextra -Wpedantic -Wcon
 foreach(compiler GXX CLANGXX)
   if(SCREE_${compiler})
     get_filename_component(name ${SCREE_${compiler}} NAME)
-    add_test(NAME "sdk: ${name} compiles each installed header alone" COMMAND sh -ec
-             "cd ${prefix}/include/scree; for header in *; do echo \"#include <scree/$header>\" | ${SCREE_${compiler}} ${alone} -I${prefix}/include -x c++ -; done")
-    set_tests_properties("sdk: ${name} compiles each installed header alone" PROPERTIES FIXTURES_REQUIRED scree_prefix)
+    add_test(NAME "sdk: ${name} compiles each public header alone" COMMAND sh -ec
+             "for header in abi.h contact_model.hpp wall.hpp generator.hpp process.hpp writer.hpp properties.hpp math.hpp; do echo \"#include <scree/$header>\" | ${SCREE_${compiler}} ${alone} -I${prefix}/include -x c++ -; done")
+    set_tests_properties("sdk: ${name} compiles each public header alone" PROPERTIES FIXTURES_REQUIRED scree_prefix)
   endif()
 endforeach()
 add_test(NAME "sdk: abi.h is plain C" COMMAND sh -ec
