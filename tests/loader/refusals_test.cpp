@@ -98,6 +98,8 @@ TEST_CASE("a table that is not sound is refused with the reason") {
   CHECK(refused("no_table.so") == model + "its description failed, so there is nothing to use" + rebuild);
   CHECK(refused("short_table.so") == model + "its table has 16 bytes, at least " +
                                          std::to_string(sizeof(scree_contact_model)) + " are needed" + rebuild);
+  CHECK(refused("short_property.so") ==
+        model + "property 1 has 8 bytes, at least " + std::to_string(sizeof(scree_property)) + " are needed" + rebuild);
   CHECK(refused("no_stiffness.so") == model + "its function 'stiffness' is missing" + rebuild);
   CHECK(refused("outside_rule.so") == model + "property 'kn' lies outside the model's struct" + rebuild);
   CHECK(refused("bad_property.so") == model + "property 1 has no usable name (letters, digits, _)" + rebuild);

@@ -40,6 +40,9 @@
 #ifndef TABLE_SIZE
 #define TABLE_SIZE sizeof(scree_contact_model)
 #endif
+#ifndef PROPERTY_SIZE
+#define PROPERTY_SIZE sizeof(scree_property)
+#endif
 #ifndef FORM
 #define FORM "kn"
 #endif
@@ -72,7 +75,7 @@ __attribute__((unused)) static void stiffness(const void* rule, const scree_batc
 }
 
 static const scree_property properties[] = {
-    {sizeof(scree_property), SCREE_NUMBER, PROPERTY, "N/m", "stiffness", WORD, 1, SCREE_HAS_LOW | SCREE_HAS_FALLBACK, 0,
+    {PROPERTY_SIZE, SCREE_NUMBER, PROPERTY, "N/m", "stiffness", WORD, 1, SCREE_HAS_LOW | SCREE_HAS_FALLBACK, 0,
      0, 0, FALLBACK, 0, 0, 0, 0},
 };
 static const char* const forms[] = {FORM};
