@@ -185,6 +185,19 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
   return {};
 }
 
+double Contacts::wall_stiffness(std::size_t wall, const Balls& balls, const std::vector<Wall>& walls) {
+  if (!built_) return 0;
+  if (scratch_.empty()) scratch_.resize(1);  // a resumed run may ask before its first pass
+  const BallView view(balls);
+  double sum = 0;
+  for (const WallList& list : wall_lists_) {
+    if (list.wall != wall || book.rules[list.rule].model == nullptr) continue;
+    const WallPass pass{&view, balls.id(), &walls[wall], &book.rules[list.rule], 0, nullptr, 0, 0, 1, false, false, 0};
+    sum += wall_list_stiffness(list, pass, scratch_[0]);
+  }
+  return sum;
+}
+
 void Contacts::forget() {
   lists_.clear();
   wall_lists_.clear();

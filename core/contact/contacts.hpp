@@ -64,6 +64,8 @@ class Contacts {
   void wall_gone(std::size_t wall);
   /// The properties of a rule changed: its contacts get them anew (their state stays).
   void renew(std::size_t rule, const Balls& balls, const std::vector<Wall>& walls);
+  /// Sum of the normal stiffness of a wall's active contacts, N/m. [one thread, between passes]
+  double wall_stiffness(std::size_t wall, const Balls& balls, const std::vector<Wall>& walls);
   /// For checkpoints: the row that each row had when the lists were built; empty when rows were not removed since.
   const std::vector<uint32_t>& rows_before() const { return before_; }
   /// Puts back lists that were saved; they must fit the book, the walls and `rows`. Lays out the records anew.

@@ -1,5 +1,7 @@
 #include "core/contact/run_law.hpp"
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 
 namespace scree::core {
@@ -48,6 +50,17 @@ scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& s, c
   batch.state = state;
   batch.sliding = s.sliding;
   return batch;
+}
+
+void tangents(const BoundRule& rule, uint32_t n, Scratch& s, Tangents& t) {
+  const double* property[2 * Scratch::state_words];
+  double* state[Scratch::state_words];
+  const scree_batch batch = batch_of(rule, n, 0.0, s, property, state);
+  std::fill_n(reinterpret_cast<double*>(&t), sizeof t / sizeof(double), 0.0);
+  const scree_stiffness out{
+      sizeof(scree_stiffness), n, t.normal, t.shear, t.bending, t.twist, t.ratio_normal, t.ratio_shear};
+  rule.model->stiffness(rule.words.data(), &batch, &out);
+  if (rule.normal_only()) std::fill_n(t.shear, n, 0.0);
 }
 
 bool run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& s) {

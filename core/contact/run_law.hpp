@@ -10,6 +10,13 @@ namespace scree::core {
 scree_batch batch_of(const BoundRule& rule, uint32_t n, double dt, Scratch& scratch, const double** property,
                      double** state);
 
+/// Tangents of a batch, as a law reports them: N/m, N/m, N m/rad, N m/rad, and shares of critical damping.
+struct Tangents {
+  double normal[SCREE_BATCH], shear[SCREE_BATCH], bending[SCREE_BATCH], twist[SCREE_BATCH];
+  double ratio_normal[SCREE_BATCH], ratio_shear[SCREE_BATCH];
+};
+void tangents(const BoundRule& rule, uint32_t n, Scratch& scratch, Tangents& out);
+
 /// Hands the batch in the scratch to the rule's law; false when the law threw for one of the contacts.
 bool run_law(const BoundRule& rule, uint32_t n, double dt, Scratch& scratch);
 

@@ -13,23 +13,6 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Tangents of a batch, as a law reports them.
-struct Tangents {
-  double normal[SCREE_BATCH], shear[SCREE_BATCH], bending[SCREE_BATCH], twist[SCREE_BATCH];
-  double ratio_normal[SCREE_BATCH], ratio_shear[SCREE_BATCH];
-};
-
-void ask_law(const BoundRule& rule, uint32_t n, Scratch& s, Tangents& t) {
-  const double* property[2 * Scratch::state_words];
-  double* state[Scratch::state_words];
-  const scree_batch batch = batch_of(rule, n, 0.0, s, property, state);
-  std::fill_n(reinterpret_cast<double*>(&t), sizeof t / sizeof(double), 0.0);
-  const scree_stiffness out{
-      sizeof(scree_stiffness), n, t.normal, t.shear, t.bending, t.twist, t.ratio_normal, t.ratio_shear};
-  rule.model->stiffness(rule.words.data(), &batch, &out);
-  if (rule.normal_only()) std::fill_n(t.shear, n, 0.0);
-}
-
 struct Sums {
   std::vector<Matrix6> stiffness, damping;
   bool dashpots = false;
@@ -119,7 +102,7 @@ void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, c
       for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[v][s.slot[k]];
     for (std::size_t w = 0; w < list.state.size(); ++w)
       for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[w][s.slot[k]];
-    ask_law(rule, n, s, t);
+    tangents(rule, n, s, t);
     for (uint32_t k = 0; k < n; ++k) {
       const std::size_t i = s.row[k], j = s.other[k];
       if (!sums.holds(i) && !sums.holds(j)) continue;
@@ -177,7 +160,7 @@ void add_walls(Accumulator& sums, const Contacts& contacts, const Balls& balls, 
     touches.find(wall, view, rows, 4, rule.reach);
     uint32_t n = 0;
     const auto flush = [&] {
-      if (n > 0) ask_law(rule, n, s, t);
+      if (n > 0) tangents(rule, n, s, t);
       for (uint32_t k = 0; k < n; ++k)
         sums.contact({s.row[k], view.radius[s.row[k]], 1.0}, Eigen::Vector3d(s.nx[k], s.ny[k], s.nz[k]), t, k,
                      s.mass[k]);
@@ -257,7 +240,7 @@ StepBound possible_pairs(const RuleBook& book, const Balls& balls, const std::ve
     s->r1[0] = radius;
     s->r2[0] = birth.r2;
     s->mass[0] = birth.mass;
-    ask_law(rule, 1, *s, *t);
+    tangents(rule, 1, *s, *t);
     Matrix6 block = Matrix6::Zero();
     const double weight = wall != nullptr ? 1 : 2;
     add(block, Eigen::Vector3d::UnitX(), radius, t->normal[0], t->shear[0], t->bending[0], t->twist[0], weight, inverse,

@@ -112,9 +112,12 @@ bool geometry(WallList& list, const WallPass& pass, const WallTouches& touches, 
   return beyond;
 }
 
-void load_state(const WallList& list, std::size_t words, std::size_t first, uint32_t n, Scratch& s) {
+void gather_columns(const WallList& list, std::size_t words, std::size_t varying, std::size_t first, uint32_t n,
+                    Scratch& s) {
   for (std::size_t w = 0; w < words; ++w)
     for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[(first + k) * words + w];
+  for (std::size_t v = 0; v < varying; ++v)
+    for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[(first + k) * varying + v];
 }
 
 void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, Scratch& s, WallExcess& excess) {
@@ -208,14 +211,12 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
       for (uint32_t k = 0; k < n && excess.slot < 0; ++k)
         if (-s.gap[k] > pass.overlap_limit * s.r1[k])
           excess = {static_cast<int64_t>(first + k), nullptr, {}, -s.gap[k]};
-    load_state(list, words, first, n, s);
-    for (std::size_t v = 0; v < varying; ++v)
-      for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[(first + k) * varying + v];
+    gather_columns(list, words, varying, first, n, s);
     const auto id = [&](uint32_t k) { return pass.id[list.slots[first + k].row]; };
     crash_note = {pass.rule->model_name.c_str(), pass.rule->name.c_str(), pass.cycle, list.block, id(0), 0,
                   pass.wall->name.c_str()};
     if (!run_law(*pass.rule, n, pass.dt, s)) {
-      load_state(list, words, first, n, s);
+      gather_columns(list, words, varying, first, n, s);
       const uint32_t k = find_thrower(*pass.rule, n, pass.dt, s);
       const std::string pieces = "ball " + std::to_string(k == n ? 0 : id(k)) + " and wall '" + pass.wall->name + "'";
       refuse_thrower(*pass.rule, k == n ? "" : pieces, pass.cycle);
@@ -225,6 +226,25 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
     scatter(list, pass, first, n, s, excess);
   }
   return excess;
+}
+
+double wall_list_stiffness(const WallList& list, const WallPass& pass, Scratch& s) {
+  thread_local WallTouches touches;
+  if (list.slots.empty() || list.candidates.empty()) return 0;
+  // A copy: it is lined up with the touches of now, the list itself waits for the next pass.
+  WallList now = list;
+  touches.find(*pass.wall, *pass.balls, now.candidates, 1, pass.rule->reach);
+  carry_over(now, touches, pass);
+  Tangents t;
+  double sum = 0;
+  for (std::size_t first = 0; first < now.slots.size(); first += SCREE_BATCH) {
+    const auto n = static_cast<uint32_t>(std::min<std::size_t>(SCREE_BATCH, now.slots.size() - first));
+    geometry(now, pass, touches, first, n, s);
+    gather_columns(now, pass.rule->state_words(), pass.rule->varying.size(), first, n, s);
+    tangents(*pass.rule, n, s, t);
+    for (uint32_t k = 0; k < n; ++k) sum += t.normal[k];
+  }
+  return sum;
 }
 
 }  // namespace scree::core

@@ -53,6 +53,9 @@ struct WallExcess {
 /// Runs all contacts of the list; returns the first that broke a guard.
 WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& scratch);
 
+/// Sum of the normal stiffness of the list's contacts at the present positions, N/m.
+double wall_list_stiffness(const WallList& list, const WallPass& pass, Scratch& scratch);
+
 /// The rule's properties changed: its contacts get them anew, their state stays where it still has the same words.
 void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& balls, const Wall& wall);
 

@@ -26,6 +26,7 @@ double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1
 Engine::Engine(unsigned threads, int isa, std::function<void(unsigned)> on_start)
     : team(threads, std::move(on_start)), host(balls, walls) {
   contacts.isa = isa;
+  host.wall_stiffness = [this](std::size_t wall) { return contacts.wall_stiffness(wall, balls, walls); };
 }
 
 double Engine::local_damping() const {
@@ -263,6 +264,7 @@ void Engine::run_model_processes() {
     if (process.table->every > 1 && clock.cycle % process.table->every != 0) continue;
     if (!any) host.fill_views();
     any = true;
+    host.listen_to(process.name, false);
     const scree_step now{sizeof(scree_step),   0,          clock.cycle, clock.time(), clock.dt, process.sums.data(),
                          process.state.data(), host.host()};
     char why[512] = "";

@@ -25,13 +25,13 @@ ProcessHost::ProcessHost(Balls& balls, std::vector<Wall>& walls) : balls_(balls)
 
 void ProcessHost::fill_views() {
   views_.assign(walls_.size(), {});
+  stiffness_known_.assign(walls_.size(), 0);
   for (std::size_t k = 0; k < walls_.size(); ++k) {
     const Wall& w = walls_[k];
     scree_wall_view& view = views_[k];
     view.struct_size = sizeof view;
     view.contacts = static_cast<uint32_t>(w.contacts);
     view.area = w.table->area != nullptr ? w.table->area(w.geometry.get()) : 0;
-    view.stiffness = w.stiffness;
     for (std::size_t c = 0; c < 3; ++c) {
       view.force[c] = w.force[c];
       view.moment[c] = w.moment[c];
@@ -70,11 +70,23 @@ int ProcessHost::wall(void* self, const char* name, uint32_t* handle) {
 scree_wall_view* ProcessHost::wall_view(void* self, uint32_t handle) {
   auto& host = *static_cast<ProcessHost*>(self);
   if (host.views_.size() != host.walls_.size()) host.fill_views();
-  return handle < host.views_.size() ? &host.views_[handle] : nullptr;
+  if (handle >= host.views_.size()) return nullptr;
+  if (host.stiffness_known_[handle] == 0) host.views_[handle].stiffness = host.wall_stiffness(handle);
+  host.stiffness_known_[handle] = 1;
+  return &host.views_[handle];
+}
+
+void ProcessHost::listen_to(const std::string& process, bool prepares) {
+  prefix_ = "processes." + process + ".";
+  prepares_ = prepares;
 }
 
 void ProcessHost::publish(void* self, const char* quantity, double value) {
-  static_cast<ProcessHost*>(self)->published[quantity] = value;
+  auto& host = *static_cast<ProcessHost*>(self);
+  if (host.prepares_)
+    host.published.try_emplace(host.prefix_ + quantity, value);
+  else
+    host.published[host.prefix_ + quantity] = value;
 }
 
 const double* ProcessHost::column(void* self, uint32_t column, uint32_t component, uint64_t* rows) {

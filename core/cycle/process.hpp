@@ -2,6 +2,7 @@
 #include <scree/abi.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,7 +39,12 @@ class ProcessHost {
   void fill_views();                ///< from walls, before a step
   void take_views();                ///< velocities back to walls, after it
   const Wall* spoilt_wall() const;  ///< one whose velocity in the views is not finite; null: none
+  /// Who speaks next: its quantities are called `processes.NAME.quantity`. While it prepares, a value counts only where
+  /// there is none yet, so that an edit of the scene does not set back what the process has published since.
+  void listen_to(const std::string& process, bool prepares);
   std::map<std::string, double> published;
+  /// Stiffness of the contacts of a wall, N/m; asked only for walls that a process looks at.
+  std::function<double(std::size_t wall)> wall_stiffness = [](std::size_t) { return 0.0; };
 
  private:
   static int wall(void* self, const char* name, uint32_t* handle);
@@ -50,6 +56,9 @@ class ProcessHost {
   Balls& balls_;
   std::vector<Wall>& walls_;
   std::vector<scree_wall_view> views_;
+  std::vector<uint8_t> stiffness_known_;  // of the view, since it was filled
+  std::string prefix_;
+  bool prepares_ = false;
   scree_host host_{};
 };
 

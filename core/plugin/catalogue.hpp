@@ -27,6 +27,7 @@ struct Component {
   std::filesystem::path file;
   std::string sha256;
   const void* table = nullptr;
+  std::shared_ptr<const void> owner{};  ///< of the table: a copy of the library's in this program's shape
 
   const scree_contact_model& contact_model() const { return *static_cast<const scree_contact_model*>(table); }
   const scree_wall& wall() const { return *static_cast<const scree_wall*>(table); }

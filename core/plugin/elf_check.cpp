@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/plugin/first_size.hpp"
 
 namespace scree::core {
 namespace {
@@ -191,7 +192,7 @@ class ElfFile {
     n.abi_major = read<uint32_t>(at + offsetof(scree_plugin_header, abi_major));
     n.abi_minor = read<uint32_t>(at + offsetof(scree_plugin_header, abi_minor));
     // A header of another version may be shorter; its version is reported, not its counts.
-    if (symbol.st_size >= sizeof(scree_plugin_header)) {
+    if (symbol.st_size >= first_size<scree_plugin_header>) {
       n.component_count = read<uint32_t>(at + offsetof(scree_plugin_header, component_count));
       n.component_size = read<uint32_t>(at + offsetof(scree_plugin_header, component_size));
     }

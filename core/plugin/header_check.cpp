@@ -3,6 +3,8 @@
 #include <set>
 #include <string_view>
 
+#include "core/plugin/first_size.hpp"
+
 namespace scree::core {
 namespace {
 
@@ -49,12 +51,12 @@ void check_numbers(const HeaderNumbers& n, const std::filesystem::path& file) {
     const bool newer = order(n.abi_major, n.abi_minor) > order(SCREE_ABI_MAJOR, SCREE_ABI_MINOR);
     refuse(file, versions + ": rebuild it with this SDK" + (newer ? ", or use a newer scree" : ""));
   }
-  if (n.header_size < sizeof(scree_plugin_header))
+  if (n.header_size < first_size<scree_plugin_header>)
     refuse(file, "its header has " + std::to_string(n.header_size) + " bytes, at least " +
-                     std::to_string(sizeof(scree_plugin_header)) + " are needed: rebuild it with this SDK");
-  if (n.component_size < sizeof(scree_component))
+                     std::to_string(first_size<scree_plugin_header>) + " are needed: rebuild it with this SDK");
+  if (n.component_size < first_size<scree_component>)
     refuse(file, "its components have " + std::to_string(n.component_size) + " bytes, at least " +
-                     std::to_string(sizeof(scree_component)) + " are needed: rebuild it with this SDK");
+                     std::to_string(first_size<scree_component>) + " are needed: rebuild it with this SDK");
   if (n.component_count == 0 || n.component_count > 256)
     refuse(file, "it lists " + std::to_string(n.component_count) +
                      " components, 1 to 256 are allowed: name them in SCREE_PLUGIN(...)");

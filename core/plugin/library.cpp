@@ -108,9 +108,9 @@ Loaded load_component(Kind kind, const std::string& name, const fs::path& file) 
   const fs::path& real = opened.real;
   const scree_component& entry = find_component(*opened.header, kind, name, real);
   FloatMode mode;
-  const void* table = entry.table();
+  const void* theirs = entry.table();
   const bool changed = mode.restore() || opened.changed_float_mode;
-  check_table(kind, name, table, real);
+  const std::shared_ptr<const void> table = checked_table(kind, name, theirs, real);
 
   Loaded loaded;
   loaded.changed_float_mode = changed;
@@ -120,7 +120,8 @@ Loaded load_component(Kind kind, const std::string& name, const fs::path& file) 
   if (const std::string text = said.take(); !text.empty())
     loaded.remarks.push_back("wrote to stdout when it was loaded, which was kept out of the results ('" + text +
                              "'): remove what writes there");
-  loaded.component = {kind, entry.name, entry.version, entry.doc ? entry.doc : "", real, opened.sha256, table};
+  loaded.component = {kind, entry.name,    entry.version, entry.doc ? entry.doc : "",
+                      real, opened.sha256, table.get(),   table};
   return loaded;
 }
 

@@ -53,6 +53,19 @@ void Simulation::prepare() {
   bind_rules();
   engine.warn = warn;
   engine.prepare();
+  prepare_processes();
+}
+
+void Simulation::prepare_processes() {
+  for (std::size_t k = 0; k < engine.processes.size(); ++k) {
+    const Process& process = engine.processes[k];
+    if (process.table->prepare == nullptr) continue;
+    engine.host.listen_to(process.name, true);
+    char why[512] = "";
+    const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
+    if (process.table->prepare(process.object.get(), engine.host.host(), &refusal) != 0)
+      throw SceneErrors({process_uses[k].place.text() + ": error: process '" + process.name + "': " + why});
+  }
 }
 
 void Simulation::add_wall(const WallUse& use) {
@@ -97,11 +110,6 @@ void Simulation::add_process(const ProcessUse& use) {
   process.object = make_object(process.table->object, use.process, "process '" + use.name + "'");
   process.state.assign(process.table->state_words, 0.0);
   process.sums.assign(process.table->sums, 0.0);
-  char why[512] = "";
-  const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
-  if (process.table->prepare != nullptr &&
-      process.table->prepare(process.object.get(), engine.host.host(), &refusal) != 0)
-    throw SceneErrors({use.place.text() + ": error: process '" + use.name + "': " + why});
   engine.processes.push_back(std::move(process));
   process_uses.push_back(use.process);
 }

@@ -51,6 +51,8 @@ class Simulation {
   void edit(const Action& action);
   /// Columns, step, tables: after set_up, edits, or a restore.
   void prepare();
+  /// Every process looks up anew what it needs: the rest of `prepare`, also of a restore.
+  void prepare_processes();
 
   // The steps of set_up, also used by `add` and by a restore.
   void add_wall(const WallUse& use);

@@ -93,6 +93,7 @@ void load_state(Simulation& simulation, const ArchiveReader& in) {
   simulation.bind_rules();
   load_bound(engine.contacts.book, in);
   engine.warn = simulation.warn;
+  simulation.prepare_processes();
   load_engine(engine, in, simulation.groups.size());
   simulation.position = read_position(in, simulation.scene);
 }

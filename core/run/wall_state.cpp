@@ -15,7 +15,6 @@ void pack(Packer& out, const Wall& wall) {
     out.f64s(v->data(), 3);
   out.f64s(wall.turn.data(), 4);
   out.u64(wall.contacts);
-  out.f64(wall.stiffness);
   out.u64(wall.contact.size());
   for (const auto& [name, value] : wall.contact) {
     out.text(name);
@@ -28,7 +27,6 @@ void unpack(Unpacker& in, Wall& wall) {
     in.f64s(v->data(), 3);
   in.f64s(wall.turn.data(), 4);
   wall.contacts = in.u64();
-  wall.stiffness = in.f64();
   wall.contact.clear();
   for (uint64_t left = in.count(16); left > 0; --left) {
     const std::string name = in.text();

@@ -25,7 +25,6 @@ struct Wall {
   std::array<double, 4> turn{1, 0, 0, 0};    ///< unit quaternion w x y z from the geometry's frame to the scene's
   std::array<double, 3> force{}, moment{};   ///< on the wall at the last force pass, N, N m about `centre`
   uint64_t contacts = 0;                     ///< active ones at the last force pass
-  double stiffness = 0;                      ///< sum over its listed contacts, N/m
 
   /// Asks the geometry for the touches of n balls (abi.h), and checks what it wrote: throws Refusal (exit 4) when it
   /// threw, or gave what no surface can. [any thread]

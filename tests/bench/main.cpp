@@ -1,17 +1,21 @@
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 #include <vector>
 
 #include "core/base/heap.hpp"
 #include "core/base/isa.hpp"
 #include "core/run/summary.hpp"
+#include "outside.hpp"
 #include "packing.hpp"
 
 // scree_bench            ns per ball-step of the dense packing, all sizes, with and without friction, threads and ISA
 // scree_bench quick      the smallest size only
 // scree_bench memory N   peak memory of one packing of N balls, for the slope between two sizes
+// scree_bench outside COPY DIR [LIMIT]   the law `linear` and its copy of that name in the plug-in folder DIR, in turns
 // Friction and no friction are run in turn and their ratio is the median over the rounds: the machine's mood cancels.
 
 namespace {
@@ -60,6 +64,13 @@ int main(int count, char** words) {
   scree::core::tune_heap();
   scree::core::Catalogue catalogue(scree::core::SearchPath::standard({}));
   const std::string what = count > 1 ? words[1] : "";
+  if (what == "outside" && count > 3) {
+    scree::core::Catalogue with_copy(scree::core::SearchPath::standard({words[3]}));
+    const char* limit = count > 4 ? words[4] : "1.03";
+    double value = 1.03;
+    std::from_chars(limit, limit + std::strlen(limit), value);
+    return scree::bench::compare_laws("linear", words[2], value, with_copy);
+  }
   if (what == "memory" && count > 2) return memory(std::strtoull(words[2], nullptr, 10), catalogue);
   std::printf("dense packing, linear contacts; ns per ball-step (median of 5 rounds), list rebuilds included\n");
   std::printf("%8s %8s %9s %9s %9s %8s %9s %9s\n", "balls", "threads", "isa", "friction", "smooth", "ratio", "contacts",

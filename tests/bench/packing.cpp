@@ -37,11 +37,13 @@ void write_balls(const std::filesystem::path& folder, int cells, double edge) {
         }
 }
 
-std::string scene_text(double length, const std::string& balls, bool friction, bool settling) {
+std::string scene_text(double length, const std::string& balls, const std::string& model, bool friction,
+                       bool settling) {
   const std::string edge = std::to_string(length);
   return "scree: 1\ntitle: dense packing\ntimestep: 1.0e-3\nskin: 0.1\ncell: {low: [0, 0, 0], high: [" + edge + ", " +
          edge + ", " + edge + "], periodic: [x, y, z]}\nballs:\n  grains: {generator: file, path: " + balls +
-         ", density: 1.909859}\ncontacts:\n  - {name: grains, between: [grains, grains], model: linear, kn: 2000, "
+         ", density: 1.909859}\ncontacts:\n  - {name: grains, between: [grains, grains], model: " + model +
+         ", kn: 2000, "
          "ks: " +
          (friction ? "571.4286, fric: 0.5" : "0, fric: 0") + ", dp_nratio: 0.4}\n" +
          (settling ? "processes:\n  calm: {process: local_damping, factor: 0.7}\n" : "") +
@@ -67,7 +69,7 @@ std::string settled_file(bool friction) { return friction ? "settled_rough.csv" 
 // more often.
 void settle(const std::filesystem::path& folder, double length, const Setting& setting, core::Catalogue& catalogue) {
   const auto simulation =
-      simulation_of(folder, scene_text(length, "balls.csv", setting.friction, true), setting, catalogue);
+      simulation_of(folder, scene_text(length, "balls.csv", setting.model, setting.friction, true), setting, catalogue);
   const core::Balls& balls = simulation->engine.balls;
   const std::size_t cycles = std::clamp<std::size_t>(150000000 / balls.size(), 600, 10000);
   for (std::size_t cycle = 0; cycle < cycles; ++cycle) simulation->engine.advance();
@@ -98,7 +100,8 @@ std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Ca
     settle(folder, cells * edge, setting, catalogue);
   }
   auto simulation = simulation_of(
-      folder, scene_text(cells * edge, settled_file(setting.friction), setting.friction, false), setting, catalogue);
+      folder, scene_text(cells * edge, settled_file(setting.friction), setting.model, setting.friction, false), setting,
+      catalogue);
   for (int cycle = 0; cycle < 40; ++cycle) simulation->engine.advance();
   return simulation;
 }

@@ -13,6 +13,7 @@ struct Setting {
   bool friction = true;
   unsigned threads = 1;
   int isa = 0;
+  std::string model = "linear";  ///< a contact model with the properties of `linear`
 };
 
 /// A dense packing in a periodic cell: a body-centred lattice with jittered places and radii (uniform within 8 %) that

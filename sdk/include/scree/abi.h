@@ -2,9 +2,9 @@
 #define SCREE_ABI_H
 /* The boundary between scree and its plug-ins: plain C, versioned by size.
  *
- * Rules of growth: new fields only at the end of a struct; a reader looks at struct_size before it touches a field that
- * the first version did not have. SI units everywhere. A plug-in author does not read this file: the C++ headers beside
- * it (contact_model.hpp, wall.hpp, generator.hpp, process.hpp, writer.hpp) fill these tables from one plain struct.
+ * Rules of growth: new fields only at the end of structs with struct_size, at which a reader looks first; scree_object
+ * and the others never grow (docs/abi.md). SI units everywhere. A plug-in author does not read this file: the C++
+ * headers beside it (contact_model.hpp, wall.hpp, generator.hpp, ...) fill these tables from one plain struct.
  *
  * Thread rules are written at each function: [any thread] may be called from several threads at once, on different
  * data; [one thread] is never called twice at the same time. */
@@ -272,7 +272,7 @@ typedef struct scree_rows {
 typedef struct scree_wall_view {
   uint32_t struct_size, contacts;
   double force[3], moment[3], position[3]; /* on the wall, N, N m about its position; m */
-  double area, stiffness;                  /* m2; N/m, sum over its contacts */
+  double area, stiffness;                  /* m2, 0 when unbounded; N/m, normal, sum over its active contacts */
   double velocity[3], spin[3];             /* writable by a model process */
 } scree_wall_view;
 
@@ -280,9 +280,9 @@ typedef struct scree_wall_view {
 typedef struct scree_host {
   uint32_t struct_size, reserved;
   void* self;
-  int (*wall)(void* self, const char* name, uint32_t* handle);
+  int (*wall)(void* self, const char* name, uint32_t* handle); /* 0: none; good until the next prepare */
   scree_wall_view* (*wall_view)(void* self, uint32_t handle);
-  void (*publish)(void* self, const char* quantity, double value);
+  void (*publish)(void* self, const char* quantity, double value); /* as processes.NAME.quantity */
   const double* (*column)(void* self, uint32_t column, uint32_t component,
                           uint64_t* rows); /* valid until the call returns */
   const uint64_t* (*ids)(void* self, uint64_t* rows);
@@ -305,7 +305,7 @@ typedef struct scree_process {
   const scree_need* needs;
   int (*prepare)(void* self, const scree_host* host, const scree_refusal* refusal); /* [one thread], may be null */
   void (*rows[3])(const void* self, const scree_rows* rows);                        /* baseline, v3, v4; may be null */
-  int (*step)(void* self, const scree_step* step, const scree_refusal* refusal);    /* may be null */
+  int (*step)(void* self, const scree_step* step, const scree_refusal* refusal);    /* [one thread], may be null */
   double (*damping)(const void* self); /* share of local damping, for the step; only with SCREE_LOCAL_DAMPING */
 } scree_process;
 

@@ -10,7 +10,7 @@
 
 namespace scree {
 
-/// A wall that `Host::wall` found; stays valid while the scene runs.
+/// A wall that `Host::wall` found; stays valid until the next `prepare`, which comes after each edit of the scene.
 struct Wall {
   uint32_t handle = UINT32_MAX;
 };
@@ -27,16 +27,19 @@ class Host {
       throw std::runtime_error("there is no wall '" + name + "'");
     return found;
   }
-  /// Force (N), moment (N m), area (m2) and stiffness (N/m) of the wall; its velocity and spin may be written in
-  /// `step`.
+  /// Force (N) and moment (N m, about its centre of rotation) of the last force pass on the wall, as seen by the wall:
+  /// a floor is pushed to negative z. Area (m2, 0 when unbounded) and normal stiffness of its active contacts (N/m, not
+  /// negative). Its velocity (m/s) and spin (rad/s) may be written in `step`, and hold until they are written again.
   scree_wall_view& view(Wall wall) const {
     scree_wall_view* found = table_->wall_view(table_->self, wall.handle);
     if (found == nullptr) throw std::runtime_error("the wall is no longer there");
     return *found;
   }
-  /// Makes `processes.NAME.quantity` readable by scenes, recorders and other processes.
+  /// Makes `processes.NAME.quantity` readable by scenes, recorders and other processes; NAME is that of the process in
+  /// the scene. Publish each quantity in `prepare` too, so that a scene can name it before the first cycle: a value
+  /// given there counts only where there is none yet, and so does not set back a running process. SI units.
   void publish(const char* quantity, double value) const { table_->publish(table_->self, quantity, value); }
-  /// A published quantity; throws when there is none of this name.
+  /// What a process published, by its full name `processes.NAME.quantity`; throws when there is none of this name.
   double read(const std::string& quantity) const {
     double value = 0;
     if (table_->read(table_->self, quantity.c_str(), &value) == 0)
@@ -64,9 +67,9 @@ class Host {
 /// One call of `step`.
 struct Step {
   explicit Step(const scree_step& table) : cycle(table.cycle), time(table.time), dt(table.dt), host(*table.host) {}
-  uint64_t cycle;
-  double time;  ///< s
-  double dt;    ///< s
+  uint64_t cycle;  ///< cycles done
+  double time;     ///< model time after them, s
+  double dt;       ///< step of the coming cycle, s, above 0
   Host host;
 };
 

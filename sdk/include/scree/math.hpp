@@ -1,6 +1,6 @@
 #pragma once
 /// Vectors and the few functions a law needs. Everything here vectorises and gives the same bits on every instruction
-/// set.
+/// set; nothing throws, and what is not a number stays so.
 #include <cmath>
 #include <cstddef>
 

@@ -9,7 +9,8 @@
 ///     void rotation(const Spin& spin, Moment& moment) const;
 ///         The same, run only in scenes whose balls have a spin; a frictionless scene keeps neither spin nor moment.
 ///     void prepare(const Host& host);
-///         Before the first cycle and after each edit of the scene: look up walls, refuse by throwing. [one thread]
+///         Before the first cycle, after each edit of the scene and after a resume: look up walls, give quantities
+///         their first value, refuse by throwing. [one thread]
 ///     void step(Step& step);   or   void step(Step& step, State& state);
 ///         Between cycles, on complete columns. [one thread] `struct State` holds doubles and Vec3 that a checkpoint
 ///         saves; everything else must follow from settings.

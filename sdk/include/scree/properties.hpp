@@ -33,10 +33,10 @@ class Property {
  public:
   Property(scree_property& row, std::vector<const char*>& pair_forms) : row_(row), pair_forms_(pair_forms) {}
 
-  Property& at_least(double low) { return set_low(low, 0); }
-  Property& above(double low) { return set_low(low, SCREE_LOW_OPEN); }
+  Property& at_least(double low) { return set_low(low, 0); }  ///< bounds are in SI units and checked before the law
+  Property& above(double low) { return set_low(low, SCREE_LOW_OPEN); }  ///< the bound itself is not legal
   Property& at_most(double high) { return set_high(high, 0); }
-  Property& below(double high) { return set_high(high, SCREE_HIGH_OPEN); }
+  Property& below(double high) { return set_high(high, SCREE_HIGH_OPEN); }  ///< the bound itself is not legal
   /// The value where the scene is silent; without it the scene must give one.
   Property& fallback(double value) {
     row_.fallback = value;

@@ -34,8 +34,8 @@ class Setting {
  public:
   explicit Setting(scree_property& property) : property_(property) {}
 
-  Setting& required() { return flag(SCREE_REQUIRED); }
-  Setting& at_least(double low) { return set_low(low, SCREE_HAS_LOW); }
+  Setting& required() { return flag(SCREE_REQUIRED); }                   ///< the scene must give it
+  Setting& at_least(double low) { return set_low(low, SCREE_HAS_LOW); }  ///< bounds are in SI units
   Setting& above(double low) { return set_low(low, SCREE_HAS_LOW | SCREE_LOW_OPEN); }
   Setting& at_most(double high) { return set_high(high, SCREE_HAS_HIGH); }
   Setting& below(double high) { return set_high(high, SCREE_HAS_HIGH | SCREE_HIGH_OPEN); }
@@ -69,7 +69,7 @@ class Setting {
   scree_property& property_;
 };
 
-/// The columns of a table key, tied to the members of one record.
+/// The columns of a table key, tied to the members of one record; each call adds one. Numbers arrive in SI units.
 template <class Row>
 class Columns {
  public:
@@ -106,7 +106,7 @@ class Columns {
   uint32_t words_ = 0;
 };
 
-/// The keys of one component. `unit` is in UDUNITS spelling, "1" for a pure number; every text is a string literal.
+/// The keys of one component; each call adds one. `unit`: UDUNITS spelling, "1" for a pure number; texts: literals.
 template <class T>
 class Settings {
  public:

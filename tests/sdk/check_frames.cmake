@@ -1,0 +1,16 @@
+# cmake -DFRAMES=folder -P check_frames.cmake: the frames of examples/plugins/xyz hold the uniform motion of its scene, to
+# the last digit.
+set(head "Properties=id:I:1:pos:R:3:radius:R:1:velocity:R:3")
+function(check frame time left right)
+  file(READ ${FRAMES}/${frame}.xyz text)
+  set(expected "2\nTime=${time} ${head}\n${left} -1 0 0\n${right} 2 0 0.5\n")
+  if(NOT text STREQUAL expected)
+    message(FATAL_ERROR "frame ${frame} is\n${text}instead of\n${expected}")
+  endif()
+endfunction()
+check(0 0 "1 -0.5 0 0 0.25" "2 0.5 0 0 0.5")
+check(1 0.5 "1 -1 0 0 0.25" "2 1.5 0 0.25 0.5")
+check(2 1 "1 -1.5 0 0 0.25" "2 2.5 0 0.5 0.5")
+if(EXISTS ${FRAMES}/3.xyz)
+  message(FATAL_ERROR "there is a frame too many")
+endif()
