@@ -11,7 +11,7 @@ struct Sticky {
   static void describe(Properties<Sticky>& p) {
     p.number("kn", &Sticky::kn, "N/m", "normal stiffness").at_least(0).mix(series);
     p.number("pull", &Sticky::pull, "N", "largest attraction, that at touch").at_least(0).mix(least);
-    p.number("range", &Sticky::range, "m", "gap at which the attraction ends").above(0).mix(least);
+    p.number("range", &Sticky::range, "m", "gap at which the attraction ends").at_least(1e-12).mix(least);
     p.number("dp_nratio", &Sticky::dp_nratio, "1", "dashpot while touching, share of critical")
         .at_least(0)
         .fallback(0)
