@@ -14,8 +14,8 @@ constexpr double tight = 1e-12;  // a few hundred roundings
 constexpr std::size_t contacts = 8;
 constexpr uint32_t steps = 30;
 
-/// Largest force and moment so far, for each contact: what a difference is measured by. What slip adds in one step counts
-/// too, since a law that caps a nearly cancelled sum keeps the roundings of its larger part.
+/// Largest force and moment so far, for each contact: what a difference is measured by. What slip adds in one step
+/// counts too, since a law that caps a nearly cancelled sum keeps the roundings of its larger part.
 class Sizes {
  public:
   Sizes(const Case& c, std::size_t count) : lever_(1e-4 * (c.r1 + c.r2)), force_(count, 0.0), moment_(count, 0.0) {}
