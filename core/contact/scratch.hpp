@@ -15,7 +15,7 @@ struct Window {
 };
 
 /// One batch on its way through the stages, small enough for the first-level cache. One per thread.
-/// The filter writes one place past the end of a full batch, hence the padding.
+/// The filter writes up to eight places past the end of a full batch, hence the padding.
 struct alignas(64) Scratch {
   static constexpr uint32_t size = SCREE_BATCH;
   static constexpr uint32_t padded = SCREE_BATCH + 8;

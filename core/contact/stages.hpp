@@ -28,9 +28,9 @@ struct FilterInput {
   double reach;
 };
 
-/// Fills the batch with the pairs that touch, from the cursor on; stops when the batch or `drops` is full (SCREE_BATCH)
-/// or the block ends. A slot whose contact has just ended goes into `drops` (room for
-/// Scratch::padded): its state must be forgotten.
+/// Fills the batch with the pairs that touch, from the cursor on; stops when the batch or `drops` has no room for
+/// another window or the block ends. A slot whose contact has just ended goes into `drops` (room for Scratch::padded):
+/// its state must be forgotten.
 using FilterStage = uint32_t (*)(const BallView&, const FilterInput&, Cursor&, uint8_t* active, Scratch&,
                                  uint32_t* drops, uint32_t& dropped);
 /// From separations to everything a law reads. True when an overlap exceeds limit times the smaller radius.
