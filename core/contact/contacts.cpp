@@ -28,6 +28,32 @@ void store_columns(TouchList& list, uint32_t n, const Scratch& s) {
   for (uint32_t k = 0; k < n; ++k) list.active[s.slot[k]] = 1;
 }
 
+// A bond that broke waits in its list for the next rebuild; until then it is a contact while its pieces touch.
+void mark_broken(TouchList& list, double reach, uint32_t n, const Scratch& s) {
+  for (uint32_t k = 0; k < n; ++k) {
+    uint8_t& broken = list.broken[s.slot[k]];
+    if (s.event[k] != 0) broken = static_cast<uint8_t>(s.event[k]);
+    list.active[s.slot[k]] = broken == 0 || s.gap[k] <= reach;
+  }
+}
+
+void note_breaks(const TouchList& list, const Balls& balls, uint32_t n, const Scratch& s, std::vector<Break>& out) {
+  for (uint32_t k = 0; k < n; ++k) {
+    if (s.event[k] == 0) continue;
+    Break one;
+    const uint32_t row = s.row[k];
+    const uint64_t a = balls.id()[row], b = balls.id()[s.other[k]];
+    one.ids = {std::min(a, b), std::max(a, b)};
+    one.rule = list.rule;
+    one.mode = static_cast<uint8_t>(s.event[k]);
+    const double arm = s.sign[k] * (balls[Column::radius][row] + 0.5 * s.gap[k]);
+    one.point = {balls[Column::x][row] + arm * s.nx[k], balls[Column::y][row] + arm * s.ny[k],
+                 balls[Column::z][row] + arm * s.nz[k]};
+    one.energy = s.energy[3][k];
+    out.push_back(one);
+  }
+}
+
 void store_report(TouchList& list, const BoundRule& rule, uint32_t n, const Scratch& s) {
   if (list.report.size() != 7) list.report.assign(7, Array<double>(list.size()));
   const bool moment = !rule.normal_only() && (rule.needs & SCREE_GIVES_MOMENT) != 0;
@@ -79,10 +105,36 @@ double least_of(const double* values, std::size_t n) { return n == 0 ? 1.0 : *st
 
 }  // namespace
 
+// Runs the law on the batch; on a break once more with energies, which the log of breaks wants.
+void Contacts::run_batch(TouchList& list, uint32_t n, const Balls& balls, const PassOptions& options,
+                         std::size_t block, Scratch& s) {
+  const BoundRule& rule = book.rules[list.rule];
+  LawCall call{options.dt, list.bonded, options.energy};
+  load_columns(list, n, s);
+  crash_note = {rule.model_name.c_str(), rule.name.c_str(),     options.cycle, block,
+                balls.id()[s.row[0]],    balls.id()[s.other[0]]};
+  uint32_t broke = run_law(rule, n, call, s);
+  if (broke == law_threw) {
+    load_columns(list, n, s);
+    const uint32_t k = find_thrower(rule, n, call, s);
+    refuse_thrower(rule, k == n ? "" : pair_text(balls.id()[s.row[k]], balls.id()[s.other[k]]), options.cycle);
+  }
+  if (broke > 0 && !call.energy) {
+    call.energy = true;
+    load_columns(list, n, s);
+    run_law(rule, n, call, s);
+  }
+  store_columns(list, n, s);
+  if (list.bonded) mark_broken(list, rule.reach, n, s);
+  if (broke > 0) note_breaks(list, balls, n, s, broke_[block]);
+  if (options.energy) block_energy_[block].add(list.bonded, n, s);
+  if (options.report) store_report(list, rule, n, s);
+}
+
 Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& balls, const double (*shift)[3],
                           const PassOptions& options, Scratch& s) {
   TouchList& list = lists_[index];
-  const BoundRule& rule = book.rules[index];
+  const BoundRule& rule = book.rules[list.rule];
   Excess excess;
   if (rule.model == nullptr || list.size() == 0) return excess;
   const BallView view(balls);
@@ -93,27 +145,20 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
   const auto filter = stage.filter[shift != nullptr];
   const auto geometry = stage.geometry[spin][turn];
   const auto scatter = lean ? stage.scatter[0][0][options.sums] : stage.scatter[spin ? 2 : 1][moment][options.sums];
-  const FilterInput input{list.begin.data(), list.other.data(), list.where.data(), shift, rule.reach};
+  const double reach = list.bonded ? std::numeric_limits<double>::infinity() : rule.reach;
+  const FilterInput input{list.begin.data(), list.other.data(), list.where.data(), shift, reach};
   const std::size_t first = block * block_rows, last = first + slices_.block_size(block);
   Cursor cursor{list.begin[first], first, last};
   while (cursor.row < last) {
     uint32_t drops[Scratch::padded], dropped = 0;
     const uint32_t n = filter(view, input, cursor, list.active.data(), s, drops, dropped);
-    for (auto& column : list.state)
-      for (uint32_t k = 0; k < dropped; ++k) column[drops[k]] = 0;
+    if (!list.bonded)
+      for (auto& column : list.state)
+        for (uint32_t k = 0; k < dropped; ++k) column[drops[k]] = 0;
     if (n == 0) continue;
     if (geometry(view, n, options.dt, options.overlap_limit, s) && !excess.found)
       excess = pair_excess(rule, balls, n, options.overlap_limit, s);
-    load_columns(list, n, s);
-    crash_note = {rule.model_name.c_str(), rule.name.c_str(),     options.cycle, block,
-                  balls.id()[s.row[0]],    balls.id()[s.other[0]]};
-    if (!run_law(rule, n, options.dt, s)) {
-      load_columns(list, n, s);
-      const uint32_t k = find_thrower(rule, n, options.dt, s);
-      refuse_thrower(rule, k == n ? "" : pair_text(balls.id()[s.row[k]], balls.id()[s.other[k]]), options.cycle);
-    }
-    store_columns(list, n, s);
-    if (options.report) store_report(list, rule, n, s);
+    run_batch(list, n, balls, options, block, s);
     if (scatter(n, first, slices_.slice(block), s) && !excess.found) excess = useless_force(rule, balls, n, s);
   }
   return excess;
@@ -122,9 +167,11 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
 Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vector<Wall>& walls,
                            const double (*shift)[3], const PassOptions& options, Scratch& s) {
   slices_.clear(block);
+  broke_[block].clear();
+  block_energy_[block] = {};
   Excess worst;
-  for (std::size_t rule = 0; rule < lists_.size(); ++rule) {
-    Excess excess = run_list(block, rule, balls, shift, options, s);
+  for (std::size_t index = 0; index < lists_.size(); ++index) {
+    Excess excess = run_list(block, index, balls, shift, options, s);
     if (excess.found && !worst.found) worst = excess;
   }
   const BallView view(balls);
@@ -142,7 +189,8 @@ Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vec
                         options.overlap_limit,
                         options.sums,
                         options.report,
-                        options.cycle};
+                        options.cycle,
+                        options.energy ? &block_energy_[block] : nullptr};
     crash_note = {rule.model_name.c_str(), rule.name.c_str(), options.cycle, block};
     const WallExcess excess = run_wall_list(list, pass, s);
     if (excess.slot < 0 || worst.found) continue;
@@ -165,6 +213,8 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
       if (list.report.empty() || list.report[0].size() != list.size())
         list.report.assign(7, Array<double>(list.size()));
   std::vector<Excess> excess(slices_.blocks());
+  broke_.resize(slices_.blocks());
+  block_energy_.resize(slices_.blocks());
   team.each_block(slices_.blocks(), [&](std::size_t block, unsigned thread) {
     excess[block] = run_block(block, balls, walls, shift, options, scratch_[thread]);
   });
@@ -180,6 +230,9 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
     }
     wall.contacts += list.slots.size();
   }
+  energy_ = {};
+  if (options.energy)
+    for (const ContactEnergy& part : block_energy_) energy_ += part;
   for (Excess& found : excess)
     if (found.found) return found;
   return {};
@@ -192,7 +245,7 @@ double Contacts::wall_stiffness(std::size_t wall, const Balls& balls, const std:
   double sum = 0;
   for (const WallList& list : wall_lists_) {
     if (list.wall != wall || book.rules[list.rule].model == nullptr) continue;
-    const WallPass pass{&view, balls.id(), &walls[wall], &book.rules[list.rule], 0, nullptr, 0, 0, 1, false, false, 0};
+    const WallPass pass{&view, balls.id(), &walls[wall], &book.rules[list.rule], 0, nullptr, 0, 0, 1, false, false, 0, nullptr};
     sum += wall_list_stiffness(list, pass, scratch_[0]);
   }
   return sum;
@@ -200,6 +253,7 @@ double Contacts::wall_stiffness(std::size_t wall, const Balls& balls, const std:
 
 void Contacts::forget() {
   lists_.clear();
+  fresh_.clear();
   wall_lists_.clear();
   wall_first_.clear();
   built_ = false;
@@ -222,13 +276,34 @@ void Contacts::rebuild(Balls& balls, std::vector<Wall>& walls, const PeriodicCel
   std::vector<uint32_t> new_row(moved ? n : 0);
   for (std::size_t row = 0; row < new_row.size(); ++row) new_row[order[row]] = static_cast<uint32_t>(row);
   const PairTable pairs = find_pairs(balls, cell, skin + book.reach(), team);
-  lists_.resize(book.rules.size());
-  const Carry carry{&balls, &pairs, &book, &old_row, &cell};
-  for (std::size_t rule = 0; rule < lists_.size(); ++rule)
-    if (book.rules[rule].model != nullptr) core::rebuild(lists_[rule], static_cast<uint16_t>(rule), carry, team);
+  lay_out_lists();
+  const BondTable bonds = bond_table(lists_, fresh_, book, old_row, n);
+  fresh_.clear();
+  const Carry carry{&balls, &pairs, &book, &old_row, &cell, &bonds, &breaks};
+  const std::size_t rules = book.rules.size();
+  for (std::size_t rule = 0; rule < rules; ++rule) {
+    if (book.rules[rule].model == nullptr) continue;
+    TouchList bonded = rebuilt_bonds(lists_[rules + rule], lists_[rule], carry, team);
+    core::rebuild(lists_[rule], lists_[rules + rule], carry, team);
+    lists_[rules + rule] = std::move(bonded);
+  }
   rebuild_wall_lists(balls, walls, new_row, skin, team);
   slices_.build(lists_, n, book.spins() ? Slices::with_spin : Slices::lean, team);
   built_ = true;
+}
+
+// Rules may have been added since the last rebuild.
+void Contacts::lay_out_lists() {
+  const std::size_t rules = book.rules.size();
+  if (lists_.size() == 2 * rules) return;
+  std::vector<TouchList> fresh(2 * rules);
+  for (std::size_t k = 0; k < fresh.size(); ++k) {
+    fresh[k].rule = static_cast<uint16_t>(k % rules);
+    fresh[k].bonded = k >= rules;
+  }
+  for (TouchList& list : lists_)
+    if (list.rule < rules) fresh[list.rule + (list.bonded ? rules : 0)] = std::move(list);
+  lists_.swap(fresh);
 }
 
 void Contacts::rebuild_wall_lists(const Balls& balls, const std::vector<Wall>& walls,
@@ -334,7 +409,8 @@ void Contacts::wall_gone(std::size_t wall) {
 
 void Contacts::renew(std::size_t rule, const Balls& balls, const std::vector<Wall>& walls) {
   built_ = false;
-  if (rule < lists_.size()) lists_[rule].stale = true;
+  for (TouchList& list : lists_)
+    if (list.rule == rule) list.stale = true;
   const BoundRule& law = book.rules[rule];
   const BallView view(balls);
   for (WallList& list : wall_lists_) {

@@ -1,10 +1,14 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "core/contact/bond_table.hpp"
+#include "core/contact/contact_energy.hpp"
 #include "core/contact/rule.hpp"
+#include "core/contact/run_law.hpp"
 #include "core/contact/scratch.hpp"
 #include "core/contact/slices.hpp"
 #include "core/contact/stages.hpp"
@@ -27,6 +31,23 @@ struct Excess {
   std::array<double, 3> value{};   ///< of that force or moment on piece 2, N or N m
 };
 
+/// A bond that broke in the last pass.
+struct Break {
+  IdPair ids;
+  uint16_t rule = 0;
+  uint8_t mode = 0;                 ///< 1 tension, 2 shear
+  std::array<double, 3> point{};    ///< where the pieces meet, m
+  double energy = 0;                ///< that the bond held, J; 0 where the law says nothing of energy
+};
+
+/// Which pairs an order to bond means.
+struct BondOrder {
+  uint16_t rule = 0;
+  double gap = 0;      ///< largest gap of a pair that is bonded, m
+  bool again = true;   ///< also pairs whose bond broke
+  std::function<bool(uint32_t row1, uint32_t row2)> chosen;  ///< empty: all pairs of the rule
+};
+
 /// What one evaluation of all contacts is asked to do beside forces.
 struct PassOptions {
   double dt = 0;               ///< of the drift that led here, s
@@ -34,6 +55,7 @@ struct PassOptions {
   bool sums = false;           ///< also the sum of contact force sizes per ball
   uint64_t cycle = 0;          ///< for the note of a crash
   bool report = false;         ///< also force, moment and sliding flag per contact
+  bool energy = false;         ///< also the energies
 };
 
 /// All contacts of the scene: lists by rule, walls, force records, and the pass over them.
@@ -48,7 +70,7 @@ class Contacts {
   Excess evaluate(const Balls& balls, std::vector<Wall>& walls, const PeriodicCell& cell, const PassOptions& options,
                   Team& team);
 
-  std::vector<TouchList>& lists() { return lists_; }
+  /// The touch lists, one per rule, then as many bonded lists, those of rules without bonds empty.
   const std::vector<TouchList>& lists() const { return lists_; }
   std::vector<WallList>& wall_lists() { return wall_lists_; }
   const std::vector<WallList>& wall_lists() const { return wall_lists_; }
@@ -71,6 +93,18 @@ class Contacts {
   /// Puts back lists that were saved; they must fit the book, the walls and `rows`. Lays out the records anew.
   void restore(std::vector<TouchList> lists, std::vector<WallList> wall_lists, std::vector<uint32_t> rows_before,
                bool built, std::size_t rows, Team& team);
+  /// Bonds the pairs of a rule whose gap is at most that of the order and which are not bonded yet; they are in the
+  /// bonded list from the next rebuild on, which must follow. The lists must be built and nothing moved since. How many.
+  uint64_t bond(const BondOrder& order, const Balls& balls, const PeriodicCell& cell, Team& team);
+  /// Takes all bonds of a rule away, as if they had never been.
+  void drop_bonds(std::size_t rule);
+  /// Bonds that broke in the last pass, by ids; counts them. Call once after every pass.
+  std::vector<Break> take_breaks();
+  uint64_t bonded() const;  ///< bonds that hold
+  /// Sums of the last pass that was asked for them.
+  const ContactEnergy& energy() const { return energy_; }
+  BreakHistory breaks;                          ///< of all bonds so far
+  std::array<uint64_t, 2> broken_bonds{};       ///< how many broke so far, in tension and in shear
   std::size_t bytes() const;
   uint64_t active() const;  ///< ball-ball contacts whose law runs
   uint64_t listed() const;  ///< pairs in lists, touching or not
@@ -82,8 +116,15 @@ class Contacts {
                   const PassOptions& options, Scratch& scratch);
   void rebuild_wall_lists(const Balls& balls, const std::vector<Wall>& walls, const std::vector<uint32_t>& new_row,
                           double skin, Team& team);
+  void lay_out_lists();
+  void run_batch(TouchList& list, uint32_t n, const Balls& balls, const PassOptions& options, std::size_t block,
+                 Scratch& scratch);
   void give_wall_slots(const std::vector<WallList>& old, const std::vector<uint32_t>& new_row);
-  std::vector<TouchList> lists_;         ///< one per rule
+  std::vector<TouchList> lists_;         ///< see lists()
+  std::vector<NewBond> fresh_;           ///< made at the next rebuild
+  std::vector<std::vector<Break>> broke_;       ///< in the last pass, by block
+  std::vector<ContactEnergy> block_energy_;     ///< of the last pass
+  ContactEnergy energy_;
   std::vector<WallList> wall_lists_;     ///< by block, wall and rule
   std::vector<std::size_t> wall_first_;  ///< first wall list of each block; blocks + 1
   Slices slices_;

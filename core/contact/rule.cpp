@@ -15,10 +15,14 @@ scree_law pick(const scree_law (&table)[3], int isa) {
 
 void BoundRule::refresh(int isa) {
   if (model == nullptr) return;
-  if (normal_only())
-    law = pick(model->normal_only, isa);
-  else
-    law = varying.empty() ? pick(model->uniform, isa) : pick(model->varying, isa);
+  const bool same = varying.empty();
+  if (normal_only()) {
+    law = energy_law = pick(model->normal_only, isa);
+  } else {
+    law = same ? pick(model->uniform, isa) : pick(model->varying, isa);
+    energy_law = same ? pick(model->uniform_energy, isa) : pick(model->varying_energy, isa);
+  }
+  bonded_law = same ? pick(model->bonded, isa) : pick(model->bonded_varying, isa);
   constants = Array<double>(words.size() * SCREE_BATCH);
   for (std::size_t w = 0; w < words.size(); ++w)
     for (std::size_t k = 0; k < SCREE_BATCH; ++k) constants[w * SCREE_BATCH + k] = words[w];

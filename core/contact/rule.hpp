@@ -21,6 +21,7 @@ struct Birth {
   const Wall* wall = nullptr;
   double r1 = 0, r2 = 0, mass = 0;  ///< m, m (0: flat wall), effective kg
   double x = 0, y = 0, z = 0;       ///< contact point, m
+  uint64_t bonding = 0;             ///< how many bonds this pair had before the one it has, or had last
 };
 
 /// Which law, with which properties. Uniform properties are held once; those that vary have one value per contact.
@@ -35,10 +36,15 @@ struct BoundRule {
   double reach = 0;         ///< largest gap at which the law runs, m
   uint32_t needs = 0;       ///< flags of the law, or SCREE_NORMAL_ONLY
   scree_law law = nullptr;  ///< chosen for the instruction set and for uniform or varying properties
+  scree_law energy_law = nullptr;  ///< the same that also fills the energies; null: the model has none
+  scree_law bonded_law = nullptr;  ///< of bonded pairs, fills energies when asked; null: the model has no bond
   Array<double> constants;  ///< SCREE_BATCH copies of every word: what a law reads where a word does not vary
 
   bool normal_only() const { return (needs & SCREE_NORMAL_ONLY) != 0; }
+  bool can_bond() const { return model != nullptr && (model->flags & SCREE_CAN_BOND) != 0; }
   uint32_t state_words() const { return model == nullptr || normal_only() ? 0 : model->state_words; }
+  /// What a contact in one of the rule's two lists remembers: the words of State, then those of Bond.
+  uint32_t memory_words(bool bonded) const { return state_words() + (bonded ? model->bond_words : 0); }
   /// Call after words, varying or needs changed.
   void refresh(int isa);
 };

@@ -31,7 +31,9 @@ struct alignas(64) Scratch {
   double arm_i[padded], arm_j[padded];  ///< from each centre to the contact point, m
   double fx[padded], fy[padded], fz[padded];
   double mx[padded], my[padded], mz[padded];
-  double sliding[padded];
+  double sliding[padded], event[padded];
+  double energy[4][padded];  ///< strain, friction, dashpot, break
+  uint8_t bonded[padded];
   double state[state_words][padded];
   double property[state_words * 2][padded];
   Window window;

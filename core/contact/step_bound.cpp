@@ -85,7 +85,7 @@ class Accumulator {
 void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, const Balls& balls,
                const double (*shift)[3], Scratch& s, Tangents& t) {
   const TouchList& list = contacts.lists()[index];
-  const BoundRule& rule = contacts.book.rules[index];
+  const BoundRule& rule = contacts.book.rules[list.rule];
   if (rule.model == nullptr || list.size() == 0) return;
   const BallView view(balls);
   const StageTable& stage = stages(0);
@@ -102,7 +102,7 @@ void add_pairs(Accumulator& sums, const Contacts& contacts, std::size_t index, c
       for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[v][s.slot[k]];
     for (std::size_t w = 0; w < list.state.size(); ++w)
       for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[w][s.slot[k]];
-    tangents(rule, n, s, t);
+    tangents(rule, n, list.bonded, s, t);
     for (uint32_t k = 0; k < n; ++k) {
       const std::size_t i = s.row[k], j = s.other[k];
       if (!sums.holds(i) && !sums.holds(j)) continue;
@@ -160,7 +160,7 @@ void add_walls(Accumulator& sums, const Contacts& contacts, const Balls& balls, 
     touches.find(wall, view, rows, 4, rule.reach);
     uint32_t n = 0;
     const auto flush = [&] {
-      if (n > 0) tangents(rule, n, s, t);
+      if (n > 0) tangents(rule, n, false, s, t);
       for (uint32_t k = 0; k < n; ++k)
         sums.contact({s.row[k], view.radius[s.row[k]], 1.0}, Eigen::Vector3d(s.nx[k], s.ny[k], s.nz[k]), t, k,
                      s.mass[k]);
@@ -200,8 +200,8 @@ StepBound step_bound(const Contacts& contacts, const Balls& balls, const std::ve
   constexpr std::size_t portion = 65536;
   for (std::size_t first = 0; first < balls.size(); first += portion) {
     Accumulator sums(balls, first, std::min(balls.size(), first + portion));
-    for (std::size_t rule = 0; rule < contacts.lists().size(); ++rule)
-      add_pairs(sums, contacts, rule, balls, cell.any() ? shifts.of : nullptr, *scratch, *tangents);
+    for (std::size_t index = 0; index < contacts.lists().size(); ++index)
+      add_pairs(sums, contacts, index, balls, cell.any() ? shifts.of : nullptr, *scratch, *tangents);
     add_walls(sums, contacts, balls, walls, *scratch, *tangents);
     sums.largest(bound);
   }
@@ -240,7 +240,7 @@ StepBound possible_pairs(const RuleBook& book, const Balls& balls, const std::ve
     s->r1[0] = radius;
     s->r2[0] = birth.r2;
     s->mass[0] = birth.mass;
-    tangents(rule, 1, *s, *t);
+    tangents(rule, 1, false, *s, *t);
     Matrix6 block = Matrix6::Zero();
     const double weight = wall != nullptr ? 1 : 2;
     add(block, Eigen::Vector3d::UnitX(), radius, t->normal[0], t->shear[0], t->bending[0], t->twist[0], weight, inverse,

@@ -204,6 +204,7 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
   touches.find(*pass.wall, *pass.balls, list.candidates, 1, pass.rule->reach);
   carry_over(list, touches, pass);
   const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
+  const LawCall call{pass.dt, false, pass.energy != nullptr};
   WallExcess excess;
   for (std::size_t first = 0; first < list.slots.size(); first += Scratch::size) {
     const auto n = static_cast<uint32_t>(std::min<std::size_t>(Scratch::size, list.slots.size() - first));
@@ -215,14 +216,15 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
     const auto id = [&](uint32_t k) { return pass.id[list.slots[first + k].row]; };
     crash_note = {pass.rule->model_name.c_str(), pass.rule->name.c_str(), pass.cycle, list.block, id(0), 0,
                   pass.wall->name.c_str()};
-    if (!run_law(*pass.rule, n, pass.dt, s)) {
+    if (run_law(*pass.rule, n, call, s) == law_threw) {
       gather_columns(list, words, varying, first, n, s);
-      const uint32_t k = find_thrower(*pass.rule, n, pass.dt, s);
+      const uint32_t k = find_thrower(*pass.rule, n, call, s);
       const std::string pieces = "ball " + std::to_string(k == n ? 0 : id(k)) + " and wall '" + pass.wall->name + "'";
       refuse_thrower(*pass.rule, k == n ? "" : pieces, pass.cycle);
     }
     for (std::size_t w = 0; w < words; ++w)
       for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
+    if (pass.energy != nullptr) pass.energy->add(false, n, s);
     scatter(list, pass, first, n, s, excess);
   }
   return excess;
@@ -241,7 +243,7 @@ double wall_list_stiffness(const WallList& list, const WallPass& pass, Scratch& 
     const auto n = static_cast<uint32_t>(std::min<std::size_t>(SCREE_BATCH, now.slots.size() - first));
     geometry(now, pass, touches, first, n, s);
     gather_columns(now, pass.rule->state_words(), pass.rule->varying.size(), first, n, s);
-    tangents(*pass.rule, n, s, t);
+    tangents(*pass.rule, n, false, s, t);
     for (uint32_t k = 0; k < n; ++k) sum += t.normal[k];
   }
   return sum;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/contact/contact_energy.hpp"
 #include "core/contact/rule.hpp"
 #include "core/contact/scratch.hpp"
 #include "core/contact/stages.hpp"
@@ -42,6 +43,7 @@ struct WallPass {
   double dt, overlap_limit;
   bool sums, report;
   uint64_t cycle;
+  ContactEnergy* energy;  ///< where the energies are added; null: nobody asked
 };
 /// A wall contact that broke a guard: its overlap is beyond the limit, or what its law gave is useless (see Excess).
 struct WallExcess {
