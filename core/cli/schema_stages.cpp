@@ -112,6 +112,17 @@ Json apply() {
   return told(std::move(out), "a force on each ball, until applied anew");
 }
 
+Json bond() {
+  const Json names{{"anyOf", Json::array({text(), Json{{"type", "array"}, {"items", text()}}})}};
+  return told(mapping({{"rule", told(text(), "a rule whose contact model can bond")},
+                       {"gap", told(with(number(), {{"minimum", 0}}), "largest gap of a pair that is bonded, m")},
+                       {"again", told(Json{{"type", "boolean"}}, "also pairs whose bond broke; true if absent")},
+                       {"between", told(Json{{"type", "array"}, {"items", names}, {"minItems", 2}, {"maxItems", 2}},
+                                        "only pairs between these two sides of groups")}},
+                      {"rule"}),
+              "bonds the pairs of a rule that are near enough");
+}
+
 }  // namespace
 
 Json actions(const Components& components) {
@@ -124,6 +135,7 @@ Json actions(const Components& components) {
              {"fix", hold("hold these components; without axes all of them")},
              {"free", hold("let go of these components; without axes of all")},
              {"apply", apply()},
+             {"bond", bond()},
              {"save", told(Json{{"type", Json::array({"string", "integer"})}, {"pattern", file_name_pattern}},
                            "name of the state, which becomes a file")},
              {"include", told(Json{{"type", "string"}, {"minLength", 1}}, "a file with a list of actions")}};

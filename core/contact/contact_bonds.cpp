@@ -47,7 +47,7 @@ uint64_t Contacts::bond(const BondOrder& order, const Balls& balls, const Period
       if (book.balls(group[low], group[high]) != order.rule) continue;
       const double sum = balls[Column::radius][low] + balls[Column::radius][high];
       if (gap_of(balls, cell, low, high, pairs.image[k]) > order.gap + touching * sum) continue;
-      if (order.chosen && !order.chosen(low, high)) continue;
+      if (order.chosen && !order.chosen(group[low], group[high])) continue;
       if (!order.again && breaks.count({std::min(id[low], id[high]), std::max(id[low], id[high])}) != 0) continue;
       if (bonded_already(low, high)) continue;
       fresh_.push_back({order.rule, low, high});

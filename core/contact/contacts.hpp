@@ -45,7 +45,7 @@ struct BondOrder {
   uint16_t rule = 0;
   double gap = 0;      ///< largest gap of a pair that is bonded, m
   bool again = true;   ///< also pairs whose bond broke
-  std::function<bool(uint32_t row1, uint32_t row2)> chosen;  ///< empty: all pairs of the rule
+  std::function<bool(uint16_t group1, uint16_t group2)> chosen;  ///< empty: all pairs of the rule
 };
 
 /// What one evaluation of all contacts is asked to do beside forces.

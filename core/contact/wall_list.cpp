@@ -49,8 +49,8 @@ void carry_over(WallList& list, const WallTouches& touches, const WallPass& pass
     const bool known = old < list.slots.size() && list.slots[old].row == row && list.slots[old].patch == patch;
     slots[k] = {row, patch, known ? list.slots[old].normal : normal};
     if (known) {
-      std::copy_n(&list.state[old * words], words, state.begin() + static_cast<std::ptrdiff_t>(k * words));
-      std::copy_n(&list.property[old * varying], varying, property.begin() + static_cast<std::ptrdiff_t>(k * varying));
+      std::copy_n(list.state.data() + old * words, words, state.begin() + static_cast<std::ptrdiff_t>(k * words));
+      std::copy_n(list.property.data() + old * varying, varying, property.begin() + static_cast<std::ptrdiff_t>(k * varying));
     } else if (varying > 0) {
       all = pass.rule->words;
       pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, row, normal, touches.distance[t]), all.data());

@@ -26,6 +26,11 @@ double norm(const std::array<double, 3>& v) { return std::sqrt(v[0] * v[0] + v[1
 Engine::Engine(unsigned threads, int isa, std::function<void(unsigned)> on_start)
     : team(threads, std::move(on_start)), host(balls, walls) {
   contacts.isa = isa;
+  host.can_bond = [this](const std::string& name) {
+    const auto& rules = contacts.book.rules;
+    return std::any_of(rules.begin(), rules.end(),
+                       [&](const BoundRule& rule) { return rule.name == name && rule.can_bond(); });
+  };
   host.wall_stiffness = [this](std::size_t wall) { return contacts.wall_stiffness(wall, balls, walls); };
 }
 
@@ -170,11 +175,26 @@ void Engine::detect() {
 
 void Engine::forces() {
   if (forces_current()) return;
+  evaluate_forces();
+  // A bond begins without force, at the positions of now; what it adds to the laws is evaluated over no time.
+  bool bonds = false;
+  for (const BondRequest& request : host.take_bonds()) {
+    BondOrder order{0, request.gap, request.again, {}};
+    for (std::size_t k = 0; k < contacts.book.rules.size(); ++k)
+      if (contacts.book.rules[k].name == request.rule) order.rule = static_cast<uint16_t>(k);
+    bond(order);
+    bonds = true;
+  }
+  if (bonds) evaluate_forces();
+}
+
+void Engine::evaluate_forces() {
   detect();
   const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted};
   const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
   contact_updates_ += contacts.listed();
   forces_current_ = true;
+  for (const Break& one : contacts.take_breaks()) broken.push_back({clock.cycle, clock.time(), one});
   if (!excess.found) return;
   stop_excess(excess);
 }
@@ -283,7 +303,8 @@ void Engine::run_model_processes() {
                               process.plugin + "'",
                           {});
   }
-  if (any) host.take_views();
+  if (!any) return;
+  host.take_views();
 }
 
 void Engine::advance() {
@@ -316,6 +337,21 @@ void Engine::advance() {
   forces_current_ = false;
   check_speed(fastest);  // after the drift of all, so that a stop leaves one time behind
   run_model_processes();
+}
+
+uint64_t Engine::bond(const BondOrder& order) {
+  const double least = 2 * (2 * largest_radius_ + order.gap);
+  for (int axis = 0; axis < 3; ++axis)
+    if (cell.periodic[axis] && cell.length(axis) < least)
+      throw Refusal(Exit::scene, "a bond over a gap of " + number(order.gap) + " m could pass through two images of the "
+                                     "periodic cell, whose edge along " + std::string(1, "xyz"[axis]) + " is " +
+                                     number(cell.length(axis)) + " m: use a smaller gap");
+  forces_outdated();
+  contacts.drop_lists();
+  detect();
+  const uint64_t made = contacts.bond(order, balls, cell, team);
+  detect();
+  return made;
 }
 
 void Engine::synchronize() {

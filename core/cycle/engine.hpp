@@ -30,6 +30,13 @@ class NumericalStop : public Refusal {
   State state;
 };
 
+/// A bond that broke, and when.
+struct BrokenBond {
+  uint64_t cycle = 0;
+  double time = 0;  ///< s
+  Break what;
+};
+
 /// Model time as a count: no rounding piles up while the step stays the same.
 struct Clock {
   uint64_t cycle = 0;
@@ -70,6 +77,7 @@ class Engine {
   double idle_step = 0;        ///< s; what an automatic step is while there is no ball, where nothing limits it
   bool sums_wanted = false;    ///< forces() also sums contact force sizes (unbalanced ratio)
   bool report_wanted = false;  ///< forces() also keeps every contact's force
+  std::vector<BrokenBond> broken;  ///< bonds that broke and that nobody has taken from here yet, in order
   std::function<void(const std::string&)> warn = [](const std::string&) {};
 
   /// Call after any edit of balls, walls, rules or processes: makes the columns exist that the scene needs, and chooses
@@ -83,6 +91,8 @@ class Engine {
   const Observation& observe();
   /// Row processes, kick, drift, model processes: to time n+1.
   void advance();
+  /// Bonds pairs at the positions of now; forces are evaluated again. How many were bonded.
+  uint64_t bond(const BondOrder& order);
   /// Call before an edit of velocities or balls: turns v(n-1/2) into v(n), so that the next kick is a half one.
   void synchronize();
   /// Call after an edit: the forces of this time are evaluated again, with increments of zero.
@@ -108,6 +118,7 @@ class Engine {
 
  private:
   void rebuild();
+  void evaluate_forces();
   void choose_step();
   void check_cell() const;
   double exact_travel();

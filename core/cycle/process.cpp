@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace scree::core {
 
@@ -20,7 +21,7 @@ std::vector<const Process*> row_order(const std::vector<Process>& processes, boo
 }
 
 ProcessHost::ProcessHost(Balls& balls, std::vector<Wall>& walls) : balls_(balls), walls_(walls) {
-  host_ = {sizeof(scree_host), 0, this, wall, wall_view, publish, column, ids, read};
+  host_ = {sizeof(scree_host), 0, this, wall, wall_view, publish, column, ids, read, bond};
 }
 
 void ProcessHost::fill_views() {
@@ -87,6 +88,15 @@ void ProcessHost::publish(void* self, const char* quantity, double value) {
     host.published.try_emplace(host.prefix_ + quantity, value);
   else
     host.published[host.prefix_ + quantity] = value;
+}
+
+std::vector<BondRequest> ProcessHost::take_bonds() { return std::exchange(bonds_, {}); }
+
+int ProcessHost::bond(void* self, const char* rule, double gap, int again) {
+  auto& host = *static_cast<ProcessHost*>(self);
+  if (!host.can_bond(rule) || !(gap >= 0) || !std::isfinite(gap)) return 0;
+  if (!host.prepares_) host.bonds_.push_back({rule, gap, again != 0});
+  return 1;
 }
 
 const double* ProcessHost::column(void* self, uint32_t column, uint32_t component, uint64_t* rows) {

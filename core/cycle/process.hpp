@@ -31,6 +31,13 @@ struct Process {
 /// each.
 std::vector<const Process*> row_order(const std::vector<Process>& processes, bool adding);
 
+/// What a process asked to be bonded, see scree_host.bond.
+struct BondRequest {
+  std::string rule;
+  double gap = 0;
+  bool again = false;
+};
+
 /// What a model process may ask of the kernel.
 class ProcessHost {
  public:
@@ -43,6 +50,9 @@ class ProcessHost {
   /// there is none yet, so that an edit of the scene does not set back what the process has published since.
   void listen_to(const std::string& process, bool prepares);
   std::map<std::string, double> published;
+  std::vector<BondRequest> take_bonds();  ///< those asked for since the last call
+  /// Whether a rule of this name makes bonds.
+  std::function<bool(const std::string& rule)> can_bond = [](const std::string&) { return false; };
   /// Stiffness of the contacts of a wall, N/m; asked only for walls that a process looks at.
   std::function<double(std::size_t wall)> wall_stiffness = [](std::size_t) { return 0.0; };
 
@@ -53,12 +63,14 @@ class ProcessHost {
   static const double* column(void* self, uint32_t column, uint32_t component, uint64_t* rows);
   static const uint64_t* ids(void* self, uint64_t* rows);
   static int read(void* self, const char* quantity, double* value);
+  static int bond(void* self, const char* rule, double gap, int again);
   Balls& balls_;
   std::vector<Wall>& walls_;
   std::vector<scree_wall_view> views_;
   std::vector<uint8_t> stiffness_known_;  // of the view, since it was filled
   std::string prefix_;
   bool prepares_ = false;
+  std::vector<BondRequest> bonds_;
   scree_host host_{};
 };
 

@@ -168,6 +168,8 @@ class ElfFile {
         refuse("the variable '" + name +
                "' would be shared with other plug-ins (unique binding): build with hidden visibility, as "
                "scree_add_plugin() does");
+      // A library built for the address sanitizer marks each symbol it exports.
+      if (name == "__odr_asan.scree_plugin") return;
       if (name != "scree_plugin")
         refuse("it exports '" + name +
                "' besides scree_plugin, which could replace code of other libraries: build with hidden visibility, as "

@@ -32,6 +32,7 @@ void save_list(const TouchList& list, std::size_t index, ArchiveWriter& out) {
   out.put(section_of(index, "other"), view(list.other));
   out.put(section_of(index, "where"), view(list.where));
   out.put(section_of(index, "active"), view(list.active));
+  if (list.bonded) out.put(section_of(index, "broken"), view(list.broken));
   out.put(section_of(index, "words"),
           std::vector<uint64_t>{list.state.size(), list.property.size(), list.stale ? 1u : 0u});
   for (std::size_t w = 0; w < list.state.size(); ++w)
@@ -69,8 +70,10 @@ void check_where(const TouchList& list, std::size_t index, const ArchiveReader& 
     }
 }
 
-TouchList read_list(const ArchiveReader& in, std::size_t index, uint64_t rows) {
+TouchList read_list(const ArchiveReader& in, std::size_t index, uint64_t rows, std::size_t rules) {
   TouchList list;
+  list.rule = static_cast<uint16_t>(index % rules);
+  list.bonded = index >= rules;
   const auto words = in.get<uint64_t>(section_of(index, "words"), 3);
   want(words[0] <= Scratch::state_words && words[1] <= 2 * Scratch::state_words && words[2] <= 1, in,
        section_of(index, "words"), "a law has more words than this version can hold");
@@ -83,6 +86,11 @@ TouchList read_list(const ArchiveReader& in, std::size_t index, uint64_t rows) {
   list.active = read_array<uint8_t>(in, section_of(index, "active"), slots);
   want(std::all_of(list.active.begin(), list.active.end(), [](uint8_t a) { return a <= 1; }), in,
        section_of(index, "active"), "a flag is neither 0 nor 1");
+  if (list.bonded) {
+    list.broken = read_array<uint8_t>(in, section_of(index, "broken"), slots);
+    want(std::all_of(list.broken.begin(), list.broken.end(), [](uint8_t mode) { return mode <= 2; }), in,
+         section_of(index, "broken"), "there is no such way to break");
+  }
   for (uint64_t w = 0; w < words[0]; ++w)
     list.state.push_back(read_array<double>(in, section_of(index, "state/" + std::to_string(w)), slots));
   for (uint64_t v = 0; v < words[1]; ++v)
@@ -94,13 +102,17 @@ TouchList read_list(const ArchiveReader& in, std::size_t index, uint64_t rows) {
 
 // Lists that are in use must have the words of their rule; before a rebuild they may still have those of the old one.
 void check_words(const SavedContacts& saved, const RuleBook& book, const ArchiveReader& in) {
-  for (std::size_t k = 0; k < saved.lists.size(); ++k) {
-    const BoundRule& rule = book.rules[k];
-    const TouchList& list = saved.lists[k];
-    want(saved.rules[k] == rule.name && saved.models[k] == rule.model_name, in, "contacts/rules",
+  for (std::size_t k = 0; k < saved.rules.size(); ++k)
+    want(saved.rules[k] == book.rules[k].name && saved.models[k] == book.rules[k].model_name, in, "contacts/rules",
          "the rules are not those of the scene");
+  for (std::size_t k = 0; k < saved.lists.size(); ++k) {
+    const TouchList& list = saved.lists[k];
+    const BoundRule& rule = book.rules[list.rule];
+    if (list.bonded && list.size() == 0) continue;
+    want(!list.bonded || rule.can_bond(), in, section_of(k, "words"), "the rule's law makes no bonds");
     if (!saved.built || rule.model == nullptr) continue;
-    want(!list.begin.empty() && list.state.size() == rule.state_words() && list.property.size() == rule.varying.size(),
+    want(!list.begin.empty() && list.state.size() == rule.memory_words(list.bonded) &&
+             list.property.size() == rule.varying.size(),
          in, section_of(k, "words"), "they are not those of the rule's law");
   }
   for (const WallList& list : saved.wall_lists) {
@@ -125,24 +137,54 @@ std::vector<std::string> state_names(const BoundRule& rule) {
   return names;
 }
 
+namespace {
+
+void save_breaks(const Contacts& contacts, ArchiveWriter& out) {
+  std::vector<uint64_t> ids;
+  std::vector<uint32_t> counts;
+  for (const auto& [pair, count] : contacts.breaks) {
+    ids.insert(ids.end(), {pair.first, pair.second});
+    counts.push_back(count);
+  }
+  out.put("bonds/pairs", ids);
+  out.put("bonds/breaks", counts);
+  out.put("bonds/broken", std::vector<uint64_t>(contacts.broken_bonds.begin(), contacts.broken_bonds.end()));
+}
+
+void read_breaks(const ArchiveReader& in, SavedContacts& saved) {
+  const auto counts = in.get<uint32_t>("bonds/breaks");
+  const auto ids = in.get<uint64_t>("bonds/pairs", 2 * counts.size());
+  const auto broken = in.get<uint64_t>("bonds/broken", 2);
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    want(ids[2 * k] < ids[2 * k + 1] && counts[k] > 0, in, "bonds/pairs", "a pair or its count makes no sense");
+    saved.breaks[{ids[2 * k], ids[2 * k + 1]}] = counts[k];
+  }
+  saved.broken_bonds = {broken[0], broken[1]};
+}
+
+}  // namespace
+
 void save_contacts(const Contacts& contacts, std::size_t balls, ArchiveWriter& out) {
   const std::vector<TouchList>& lists = contacts.lists();
   std::vector<std::string> rules, models;
   uint64_t rows = contacts.built() ? balls : 0;
-  for (std::size_t k = 0; k < lists.size(); ++k) {
+  const std::size_t count = lists.size() / 2;
+  for (std::size_t k = 0; k < count; ++k) {
     rules.push_back(contacts.book.rules[k].name);
     models.push_back(contacts.book.rules[k].model_name);
-    if (!lists[k].begin.empty()) rows = lists[k].begin.size() - 1;
   }
+  for (const TouchList& list : lists)
+    if (!list.begin.empty()) rows = list.begin.size() - 1;
   out.put_texts("contacts/rules", rules);
   out.put_texts("contacts/models", models);
   out.put("contacts/shape", std::vector<uint64_t>{contacts.built() ? 1u : 0u, rows});
   out.put("contacts/rows_before", contacts.rows_before());
-  for (std::size_t k = 0; k < lists.size(); ++k) {
+  for (std::size_t k = 0; k < count; ++k) {
     out.put_texts(section_of(k, "state_names"), state_names(contacts.book.rules[k]));
     out.put_value<uint64_t>(section_of(k, "varying"), contacts.book.rules[k].varying.size());
-    save_list(lists[k], k, out);
   }
+  for (std::size_t k = 0; k < lists.size(); ++k) save_list(lists[k], k, out);
+  save_breaks(contacts, out);
   save_wall_lists(contacts.wall_lists(), out);
 }
 
@@ -164,9 +206,12 @@ SavedContacts read_contacts(const ArchiveReader& in, const Balls& balls, const P
   for (std::size_t k = 0; k < saved.rules.size(); ++k) {
     saved.state_names.push_back(in.get_texts(section_of(k, "state_names")));
     saved.varying.push_back(static_cast<std::size_t>(in.get_value<uint64_t>(section_of(k, "varying"))));
-    saved.lists.push_back(read_list(in, k, saved.rows));
+  }
+  for (std::size_t k = 0; k < 2 * saved.rules.size(); ++k) {
+    saved.lists.push_back(read_list(in, k, saved.rows, saved.rules.size()));
     check_where(saved.lists[k], k, in, saved.built ? balls.id() : nullptr, cell);
   }
+  read_breaks(in, saved);
   saved.wall_lists = read_wall_lists(in, {saved.rows, saved.rules.size(), walls});
   return saved;
 }
@@ -175,9 +220,11 @@ void load_contacts(Contacts& contacts, const ArchiveReader& in, const Balls& bal
                    std::size_t walls, Team& team) {
   SavedContacts saved = read_contacts(in, balls, cell, walls);
   const std::size_t rules = contacts.book.rules.size();
-  want(saved.built ? saved.lists.size() == rules : saved.lists.size() <= rules, in, "contacts/rules",
+  want(saved.built ? saved.rules.size() == rules : saved.rules.size() <= rules, in, "contacts/rules",
        "it holds another number of rules than were set up");
   check_words(saved, contacts.book, in);
+  contacts.breaks = std::move(saved.breaks);
+  contacts.broken_bonds = saved.broken_bonds;
   contacts.restore(std::move(saved.lists), std::move(saved.wall_lists), std::move(saved.rows_before), saved.built,
                    balls.size(), team);
 }

@@ -9,10 +9,12 @@ namespace scree::core {
 
 /// The contact lists as they lie in a file, checked against themselves: rows in range and in order, sizes that match.
 struct SavedContacts {
-  std::vector<std::string> rules, models;             ///< of each touch list
-  std::vector<std::vector<std::string>> state_names;  ///< of each touch list's rule
-  std::vector<std::size_t> varying;                   ///< varying words of each touch list's rule
-  std::vector<TouchList> lists;
+  std::vector<std::string> rules, models;             ///< of each rule; its touch list has its index
+  std::vector<std::vector<std::string>> state_names;  ///< of each rule
+  std::vector<std::size_t> varying;                   ///< varying words of each rule
+  std::vector<TouchList> lists;  ///< touch lists, then bonded lists
+  BreakHistory breaks;
+  std::array<uint64_t, 2> broken_bonds{};
   std::vector<WallList> wall_lists;
   std::vector<uint32_t> rows_before;
   uint64_t rows = 0;  ///< when the lists were built

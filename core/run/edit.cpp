@@ -40,6 +40,7 @@ void Simulation::edit(const Action& action) {
   if (const auto* remove = std::get_if<DeleteAction>(&action.what)) edit_delete(*remove);
   if (const auto* fix = std::get_if<FixAction>(&action.what)) edit_fix(*fix);
   if (const auto* apply = std::get_if<ApplyAction>(&action.what)) edit_apply(*apply);
+  if (const auto* bond = std::get_if<BondAction>(&action.what)) edit_bond(*bond);
   prepare();
 }
 
@@ -142,7 +143,7 @@ void Simulation::edit_delete(const DeleteAction& action) {
   } else if (action.what == "contacts") {
     const std::size_t index = find_rule(rules, precedence, name);
     std::erase(precedence, static_cast<uint16_t>(index));
-    engine.contacts.drop_lists();
+    engine.contacts.drop_bonds(index);
   } else {
     std::vector<uint8_t> keep = select(name, action.where.get());
     for (uint8_t& flag : keep) flag = !flag;
@@ -162,6 +163,28 @@ void Simulation::edit_fix(const FixAction& action) {
   uint8_t* fixed = engine.balls.require_fixed();
   for (std::size_t row = 0; row < chosen.size(); ++row)
     if (chosen[row]) fixed[row] = static_cast<uint8_t>(action.fix ? fixed[row] | bits : fixed[row] & ~bits);
+}
+
+void Simulation::edit_bond(const BondAction& action) {
+  BondOrder order{static_cast<uint16_t>(find_rule(rules, precedence, action.rule.text)), action.gap, action.again, {}};
+  if (!action.between[0].empty()) {
+    std::array<std::vector<uint8_t>, 2> side;
+    for (std::size_t k = 0; k < 2; ++k) {
+      side[k].assign(groups.size(), 0);
+      for (const Name& name : action.between[k]) {
+        const std::vector<uint8_t> covered = groups.cover(name.text);
+        for (std::size_t leaf = 0; leaf < covered.size(); ++leaf) side[k][leaf] |= covered[leaf];
+      }
+    }
+    order.chosen = [side](uint16_t a, uint16_t b) {
+      return (side[0][a] != 0 && side[1][b] != 0) || (side[0][b] != 0 && side[1][a] != 0);
+    };
+  }
+  const uint64_t made = engine.bond(order);
+  tell("bonded " + std::to_string(made) + " pairs under rule '" + action.rule.text + "'");
+  if (made == 0)
+    warn(action.rule.place.text() + ": warning: no pair under rule '" + action.rule.text +
+         "' is near enough to be bonded: check 'gap'");
 }
 
 void Simulation::edit_apply(const ApplyAction& action) {

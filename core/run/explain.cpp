@@ -137,15 +137,17 @@ std::vector<Stored> ball_storage(const Engine& engine) {
   return out;
 }
 
-void add_columns(const BoundRule& rule, std::vector<Stored>& out) {
+void add_columns(const BoundRule& rule, bool bonded, std::vector<Stored>& out) {
   uint32_t named = 0;
-  for (uint32_t k = 0; k < rule.model->state_count && rule.state_words() > 0; ++k) {
+  const uint32_t words = rule.memory_words(bonded);
+  for (uint32_t k = 0; k < rule.model->state_count; ++k) {
     const scree_state_word& state = rule.model->states[k];
+    if (state.word >= words) continue;
     out.push_back({state.name, "remembered by " + rule.model_name, state.words * sizeof(double)});
     named += state.words;
   }
-  if (rule.state_words() > named)
-    out.push_back({"state", "remembered by " + rule.model_name, (rule.state_words() - named) * sizeof(double)});
+  if (words > named)
+    out.push_back({"state", "remembered by " + rule.model_name, (words - named) * sizeof(double)});
   for (const uint32_t word : rule.varying)
     out.push_back({word_name(*rule.model, word), "differs from contact to contact", sizeof(double)});
 }
@@ -156,13 +158,18 @@ std::vector<Explanation::RuleStorage> contact_storage(const Engine& engine) {
   for (std::size_t r = 0; r < contacts.book.rules.size(); ++r) {
     const BoundRule& rule = contacts.book.rules[r];
     if (rule.model == nullptr) continue;
-    Explanation::RuleStorage storage{rule.name, rule.model_name, 0, {}};
-    if (r < contacts.lists().size()) storage.listed = contacts.lists()[r].size();
-    storage.parts = {{"other", "row of the other ball", sizeof(uint32_t)},
-                     {"where", "force record of the other ball, image, orientation", sizeof(uint32_t)},
-                     {"active", "its law runs", sizeof(uint8_t)}};
-    add_columns(rule, storage.parts);
-    out.push_back(std::move(storage));
+    for (const bool bonded : {false, true}) {
+      const std::size_t index = bonded ? contacts.lists().size() / 2 + r : r;
+      const std::size_t listed = index < contacts.lists().size() ? contacts.lists()[index].size() : 0;
+      if (bonded && listed == 0) continue;
+      Explanation::RuleStorage storage{bonded ? rule.name + " (bonded)" : rule.name, rule.model_name, listed, {}};
+      storage.parts = {{"other", "row of the other ball", sizeof(uint32_t)},
+                       {"where", "force record of the other ball, image, orientation", sizeof(uint32_t)},
+                       {"active", "its law runs", sizeof(uint8_t)}};
+      if (bonded) storage.parts.push_back({"broken", "how the bond broke", sizeof(uint8_t)});
+      add_columns(rule, bonded, storage.parts);
+      out.push_back(std::move(storage));
+    }
   }
   return out;
 }

@@ -75,6 +75,7 @@ const ContactField contact_fields[] = {
     {"shear_force", "N", 1, [](const ActiveContact& a, uint32_t) { return a.shear_force(); }},
     {"overlap", "m", 1, [](const ActiveContact& a, uint32_t) { return a.overlap; }},
     {"sliding", "1", 1, [](const ActiveContact& a, uint32_t) { return a.sliding ? 1.0 : 0.0; }},
+    {"bonded", "1", 1, [](const ActiveContact& a, uint32_t) { return a.bonded ? 1.0 : 0.0; }},
 };
 
 bool take(const std::string& name, FieldChoice& choice) {

@@ -146,8 +146,7 @@ double Instant::overlap() {
   return overlap_;
 }
 
-void Instant::add_touching(std::size_t rule) {
-  const TouchList& list = engine_.contacts.lists()[rule];
+void Instant::add_pairs(const TouchList& list) {
   const Balls& balls = engine_.balls;
   const double* radius = balls[Column::radius];
   each_active(list, [&](std::size_t row, uint32_t other, uint64_t slot) {
@@ -167,6 +166,7 @@ void Instant::add_touching(std::size_t rule) {
       one.moment[c] = list.report[3 + c][slot];
     }
     one.sliding = list.report[6][slot] != 0;
+    one.bonded = list.bonded && list.broken[slot] == 0;
     contacts_.push_back(one);
   });
 }
@@ -207,7 +207,7 @@ const std::vector<ActiveContact>& Instant::contacts() {
   if (!reported && between_balls() + with_walls() > 0)
     throw Refusal(Exit::internal, "cycle " + std::to_string(engine_.clock.cycle) +
                                       ": contact forces were not kept in this cycle, yet they are to be read");
-  for (std::size_t rule = 0; rule < all.lists().size(); ++rule) add_touching(rule);
+  for (const TouchList& list : all.lists()) add_pairs(list);
   for (std::size_t k = 0; k < all.wall_lists().size(); ++k) add_walls(k);
   std::sort(contacts_.begin(), contacts_.end(), [](const ActiveContact& a, const ActiveContact& b) {
     return std::tie(a.id1, a.id2, a.wall, a.patch) < std::tie(b.id1, b.id2, b.wall, b.patch);

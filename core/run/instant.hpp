@@ -16,7 +16,7 @@ struct ActiveContact {
   std::array<double, 3> point{};            ///< m
   double overlap = 0;                       ///< m, negative where the law runs across a gap
   std::array<double, 3> force{}, moment{};  ///< on piece 2, N, N m
-  bool sliding = false;
+  bool sliding = false, bonded = false;
 
   double normal_force() const;  ///< N, positive where the contact pushes
   double shear_force() const;   ///< N, at least 0
@@ -54,7 +54,7 @@ class Instant {
     bool operator==(const Moment&) const = default;
   };
   void refresh();
-  void add_touching(std::size_t rule);
+  void add_pairs(const TouchList& list);
   void add_walls(std::size_t list);
 
   Engine& engine_;

@@ -61,6 +61,14 @@ const Plain plain[] = {
     {"contacts.walls", "1", pass, [](Simulation&, Instant& now) { return count(now.with_walls()); }},
     {"contacts.listed", "1", free, [](Simulation& s, Instant&) { return count(s.engine.contacts.listed()); }},
     {"contacts.sliding", "1", report, sliding},
+    {"bonds.count", "1", pass, [](Simulation& s, Instant&) { return count(s.engine.contacts.bonded()); }},
+    {"bonds.broken", "1", pass,
+     [](Simulation& s, Instant&) {
+       return count(s.engine.contacts.broken_bonds[0] + s.engine.contacts.broken_bonds[1]);
+     }},
+    {"bonds.broken.tension", "1", pass,
+     [](Simulation& s, Instant&) { return count(s.engine.contacts.broken_bonds[0]); }},
+    {"bonds.broken.shear", "1", pass, [](Simulation& s, Instant&) { return count(s.engine.contacts.broken_bonds[1]); }},
     {"coordination", "1", pass, coordination},
     {"overlap.max", "1", pass, [](Simulation&, Instant& now) { return now.overlap(); }},
 };

@@ -288,7 +288,7 @@ BoundRule bind_rule(const Simulation& simulation, const Rule& rule) {
   binding->base.assign(binding->table->rule_words, 0.0);
   bound.model = binding->table;
   bound.model_name = binding->model;
-  if (binding->table->state_words > Scratch::state_words || binding->table->rule_words > 2 * Scratch::state_words)
+  if (binding->table->state_words + binding->table->bond_words > Scratch::state_words || binding->table->rule_words > 2 * Scratch::state_words)
     throw Refusal(Exit::plugin, "contact model '" + binding->model + "' has more than " +
                                     std::to_string(Scratch::state_words) + " state words or " +
                                     std::to_string(2 * Scratch::state_words) +
@@ -312,6 +312,8 @@ BoundRule bind_rule(const Simulation& simulation, const Rule& rule) {
   } else {
     bound.needs = SCREE_NORMAL_ONLY | bound.model->flags;
   }
+  // A bond needs what the law without friction could do without.
+  if (bound.can_bond()) bound.needs = bound.model->flags;
   if (bound.model->normal_only[0] == nullptr) bound.needs &= ~static_cast<uint32_t>(SCREE_NORMAL_ONLY);
   // Also where nothing varies now: a checkpoint may say that something does.
   bound.vary = [binding](const Birth& birth, double* words) { binding->fill(birth, words); };

@@ -37,6 +37,7 @@ std::unique_ptr<Simulation> make(Scene scene, Catalogue& catalogue, const RunOpt
   const unsigned threads = options.threads > 0 ? options.threads : usable_cores();
   auto simulation = std::make_unique<Simulation>(std::move(scene), catalogue, threads, static_cast<int>(options.isa));
   simulation->warn = [](const std::string& text) { log::warning("{}", text); };
+  simulation->tell = [](const std::string& text) { log::info("{}", text); };
   return simulation;
 }
 

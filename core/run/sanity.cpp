@@ -49,14 +49,9 @@ double normal_stiffness(const BoundRule& rule, const Balls& balls, std::size_t r
   s.r1[0] = birth.r1;
   s.r2[0] = birth.r2;
   s.mass[0] = birth.mass;
-  const double* property[2 * Scratch::state_words];
-  double* state[Scratch::state_words];
-  const scree_batch batch = batch_of(rule, 1, 0.0, s, property, state);
-  double tangent[6] = {0, 0, 0, 0, 0, 0};
-  const scree_stiffness out{
-      sizeof(scree_stiffness), 1, tangent, tangent + 1, tangent + 2, tangent + 3, tangent + 4, tangent + 5};
-  rule.model->stiffness(rule.words.data(), &batch, &out);
-  return tangent[0];
+  const auto tangent = std::make_unique<Tangents>();
+  tangents(rule, 1, false, s, *tangent);
+  return tangent->normal[0];
 }
 
 /// Applied forces and processes that add: the net force without that of contacts, N.

@@ -26,6 +26,7 @@ Session::Session(std::unique_ptr<Simulation> simulation, OutputFolder folder, co
       folder_(std::move(folder)),
       options_(options),
       quantities_(*simulation_),
+      events_(folder_.files()),
       checkpoints_(folder_.path()),
       progress_({options.quiet, options.colour && log::on_terminal()}) {
   quantities_.check_scene();
@@ -60,6 +61,7 @@ void Session::complete(const Needs& extra) {
     engine.forces();
     quantities_.follow();
   }
+  events_.take(engine);
   for (const auto& recorder : recorders_)
     if (recorder->due()) recorder->write();
 }
@@ -288,6 +290,7 @@ RunResult Session::run() {
   } catch (const NumericalStop& stop) {
     ended_ = stop.code();
     message_ = stop.what();
+    events_.take(simulation_->engine);
     write_failure(stop);
     save_stopped(stop);
     for (const auto& recorder : recorders_) recorder->close();

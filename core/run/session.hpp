@@ -7,6 +7,7 @@
 #include "core/base/watchdog.hpp"
 #include "core/run/checkpoint_files.hpp"
 #include "core/run/condition.hpp"
+#include "core/run/event_log.hpp"
 #include "core/run/output_folder.hpp"
 #include "core/run/progress.hpp"
 #include "core/run/quantities.hpp"
@@ -57,6 +58,7 @@ class Session {
   RunOptions options_;
   Quantities quantities_;
   std::vector<std::unique_ptr<Recorder>> recorders_;
+  EventLog events_;
   CheckpointFiles checkpoints_;
   Progress progress_;
   std::unique_ptr<Watchdog> watchdog_;  ///< while the stages run

@@ -44,10 +44,11 @@ class Simulation {
       rules;  ///< the scene's rules as they are now: in order, with what `set` changed; index as in the book
   std::vector<uint16_t> precedence;  ///< indices into `rules`, first match first; a deleted rule is not in it
   std::function<void(const std::string&)> warn = [](const std::string&) {};
+  std::function<void(const std::string&)> tell = [](const std::string&) {};
 
   /// Walls, balls, rules and processes of the scene, in that order.
   void set_up();
-  /// Everything but running: add, set, delete, fix, free, apply.
+  /// Everything but running: add, set, delete, fix, free, apply, bond.
   void edit(const Action& action);
   /// Columns, step, tables: after set_up, edits, or a restore.
   void prepare();
@@ -74,6 +75,7 @@ class Simulation {
   void edit_delete(const DeleteAction& action);
   void edit_fix(const FixAction& action);
   void edit_apply(const ApplyAction& action);
+  void edit_bond(const BondAction& action);
   void set_rule(const SetAction& action);
   void set_wall(const SetAction& action);
   void set_balls(const SetAction& action);

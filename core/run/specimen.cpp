@@ -16,7 +16,7 @@ constexpr std::size_t fresh = static_cast<std::size_t>(-1);
 
 // For each saved list the rule that goes on with it.
 std::vector<std::size_t> heirs(const SavedContacts& saved, const RuleBook& book) {
-  std::vector<std::size_t> heir(saved.lists.size(), fresh);
+  std::vector<std::size_t> heir(saved.rules.size(), fresh);
   for (std::size_t k = 0; k < book.rules.size(); ++k) {
     const BoundRule& rule = book.rules[k];
     if (rule.model == nullptr) continue;
@@ -58,14 +58,22 @@ void carry_contacts(Engine& engine, const ArchiveReader& in, const std::vector<s
   SavedContacts saved = read_contacts(in, engine.balls, any_cell, wall_index.size());
   const std::vector<std::size_t> heir = heirs(saved, engine.contacts.book);
   std::vector<WallList> wall_lists = carried(saved, heir, wall_index, engine);
-  std::vector<TouchList> lists(engine.contacts.book.rules.size());
-  for (std::size_t old = 0; old < heir.size(); ++old) {
-    if (heir[old] == fresh) continue;
-    TouchList& list = lists[heir[old]];
-    list = std::move(saved.lists[old]);
-    list.property.clear();
-    list.stale = true;
+  const std::size_t rules = engine.contacts.book.rules.size();
+  std::vector<TouchList> lists(2 * rules);
+  for (std::size_t k = 0; k < lists.size(); ++k) {
+    lists[k].rule = static_cast<uint16_t>(k % rules);
+    lists[k].bonded = k >= rules;
   }
+  for (TouchList& list : saved.lists) {
+    if (heir[list.rule] == fresh) continue;
+    TouchList& to = lists[heir[list.rule] + (list.bonded ? rules : 0)];
+    list.rule = to.rule;
+    to = std::move(list);
+    to.property.clear();
+    to.stale = true;
+  }
+  engine.contacts.breaks = std::move(saved.breaks);
+  engine.contacts.broken_bonds = saved.broken_bonds;
   engine.contacts.restore(std::move(lists), std::move(wall_lists), std::move(saved.rows_before), false,
                           engine.balls.size(), engine.team);
 }

@@ -178,6 +178,47 @@ class Checker {
   }
   void apply(const FixAction& fix, const Place&) { wants_balls(fix.balls); }
   void apply(const ApplyAction& force, const Place&) { wants_balls(force.balls); }
+  void apply(const BondAction& bond, const Place&) {
+    const auto rule = std::find_if(live_.rules.begin(), live_.rules.end(),
+                                   [&](const Rule* one) { return one->name == bond.rule.text; });
+    if (rule == live_.rules.end()) return missing("rule", bond.rule, rule_names());
+    for (const auto& side : bond.between)
+      for (const Name& name : side) wants_balls(name);
+    const Component* model = (*rule)->none ? nullptr : (*rule)->model.component;
+    if (model == nullptr || (model->contact_model().flags & SCREE_CAN_BOND) == 0)
+      error(bond.rule.place, "rule '" + bond.rule.text + "' has " +
+                                 (model == nullptr ? "no contact model" : "contact model '" + model->name + "'") +
+                                 ", which makes no bonds: use contact_bond or parallel_bond");
+    else if (!names_balls_twice(**rule))
+      error(bond.rule.place, "rule '" + bond.rule.text + "' is between balls and walls, which cannot be bonded");
+    else if (!bond.between[0].empty() && !sides_meet(**rule, bond.between))
+      error(bond.rule.place, "the groups of 'between' never meet under rule '" + bond.rule.text +
+                                 "': name groups that it is between");
+  }
+
+  bool names_balls_twice(const Rule& rule) const {
+    return std::all_of(rule.between.begin(), rule.between.end(), [&](const std::vector<std::string>& side) {
+      return std::any_of(side.begin(), side.end(), [&](const std::string& name) {
+        return name != "walls" && !ever_walls_.contains(name);
+      });
+    });
+  }
+
+  /// Whether one of the groups of a bond may lie on each side of the rule.
+  static bool sides_meet(const Rule& rule, const std::array<std::vector<Name>, 2>& groups) {
+    const auto within = [](const std::string& a, const std::string& b) {
+      return a == b || b == "balls" || a.starts_with(b + ".");
+    };
+    const auto fits = [&](const std::vector<Name>& side, const std::vector<std::string>& of) {
+      return std::any_of(side.begin(), side.end(), [&](const Name& name) {
+        return std::any_of(of.begin(), of.end(), [&](const std::string& group) {
+          return within(name.text, group) || within(group, name.text);
+        });
+      });
+    };
+    const auto& [one, other] = rule.between;
+    return (fits(groups[0], one) && fits(groups[1], other)) || (fits(groups[0], other) && fits(groups[1], one));
+  }
   void apply(const SaveAction& save, const Place&) {
     if (!saved_.insert(save.name.text).second)
       error(save.name.place, "a state '" + save.name.text + "' is saved already: choose another name");

@@ -23,6 +23,7 @@ Cell read_cell(const Node& node, Context& context);
 
 /// One action of a stage. Nothing when it is wrong or unknown (reported).
 std::optional<Action> read_action(const Key& key, const Node& node, Context& context);
+BondAction read_bond(const Node& node, Context& context);
 std::optional<SetAction> read_assignment(const Key& key, const Node& node, Context& context);
 
 std::vector<PieceProperty> read_piece_properties(const Node& node, const std::string& what, Context& context);

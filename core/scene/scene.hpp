@@ -147,6 +147,13 @@ struct ApplyAction {
   Triple force{}, moment{};
   std::shared_ptr<Formula> where;
 };  ///< N, N m, on each ball, until applied anew
+/// Bonds the pairs of a rule that are near enough.
+struct BondAction {
+  Name rule;
+  double gap = 0;     ///< m; pairs with at most this gap
+  bool again = true;  ///< also pairs whose bond broke
+  std::array<std::vector<Name>, 2> between;  ///< groups; empty: all pairs of the rule
+};
 struct RunAction {
   enum class Word { run, cycle, solve } word = Word::run;
   Span length;               ///< empty: no limit (only with `until`)
@@ -158,7 +165,7 @@ struct SaveAction {
   Name name;
 };
 struct Action {
-  std::variant<AddAction, SetAction, DeleteAction, FixAction, ApplyAction, RunAction, SaveAction> what;
+  std::variant<AddAction, SetAction, DeleteAction, FixAction, ApplyAction, BondAction, RunAction, SaveAction> what;
   Place place;
 };
 struct Stage {

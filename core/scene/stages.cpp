@@ -7,7 +7,7 @@ namespace scree::core {
 namespace {
 
 const std::vector<std::string>& action_names() {
-  static const std::vector<std::string> names = {"add",   "set", "delete", "fix",  "free",   "apply",
+  static const std::vector<std::string> names = {"add",   "set", "delete", "fix",  "free",   "apply", "bond",
                                                  "solve", "run", "cycle",  "save", "include"};
   return names;
 }
@@ -214,6 +214,8 @@ std::optional<Action> read_action(const Key& key, const Node& node, Context& con
     action.what = read_fix(key.text == "fix", node, context);
   } else if (key.text == "apply") {
     action.what = read_apply(node, context);
+  } else if (key.text == "bond") {
+    action.what = read_bond(node, context);
   } else if (key.text == "run") {
     action.what = read_run(RunAction::Word::run, key, node, context);
   } else if (key.text == "cycle") {

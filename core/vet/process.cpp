@@ -32,7 +32,7 @@ class Scene {
   Scene() {
     view_ = {sizeof(scree_wall_view), 3, {0, 0, -10}, {0, 0, 0}, {0, 0, 0}, 1, 1e6, {0, 0, 0}, {0, 0, 0}};
     for (std::size_t i = 0; i < ids_.size(); ++i) ids_[i] = i + 1;
-    table_ = {sizeof(scree_host), 0, this, &wall, &wall_view, &publish, &column, &ids, &read};
+    table_ = {sizeof(scree_host), 0, this, &wall, &wall_view, &publish, &column, &ids, &read, &bond};
   }
   const scree_host* host() const { return &table_; }
   bool finite() const {
@@ -56,6 +56,7 @@ class Scene {
   }
   static const uint64_t* ids(void* s, uint64_t* rows) { return *rows = self(s).ids_.size(), self(s).ids_.data(); }
   static int read(void*, const char*, double* value) { return *value = 1, 1; }
+  static int bond(void*, const char*, double, int) { return 1; }
 
   scree_wall_view view_{};
   std::map<std::string, double> published_;

@@ -49,7 +49,7 @@ struct Wind {
 struct World {
   scree_wall_view view{};
   std::map<std::string, double> published;
-  scree_host host{sizeof(scree_host), 0, this, &wall, &wall_view, &publish, nullptr, nullptr, &read};
+  scree_host host{sizeof(scree_host), 0, this, &wall, &wall_view, &publish, nullptr, nullptr, &read, nullptr};
 
   static int wall(void*, const char* name, uint32_t* handle) {
     return std::string(name) == "top" ? (*handle = 4, 1) : 0;

@@ -287,6 +287,10 @@ typedef struct scree_host {
                           uint64_t* rows); /* valid until the call returns */
   const uint64_t* (*ids)(void* self, uint64_t* rows);
   int (*read)(void* self, const char* quantity, double* value); /* 0: no such quantity */
+  /* Bonds, after this call of step, all pairs of a rule whose gap is at most `gap` m and which are not bonded; with
+   * `again` 0 none whose bond broke. In prepare it only tells whether that is possible. 0: no such rule, or its contact
+   * model makes no bonds, or the gap is not a number of at least 0. */
+  int (*bond)(void* self, const char* rule, double gap, int again);
 } scree_host;
 
 typedef struct scree_step {

@@ -5,6 +5,7 @@
 #include <scree/math.hpp>
 
 #include <span>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 
@@ -58,6 +59,17 @@ class Host {
     uint64_t rows = 0;
     const uint64_t* first = table_->ids(table_->self, &rows);
     return first == nullptr ? std::span<const uint64_t>() : std::span<const uint64_t>(first, rows);
+  }
+  /// Bonds, once the forces of the coming time are known, all pairs of a rule whose gap is at most `gap` (m, at least
+  /// 0) and which are not bonded; without `again` none whose bond broke before. In `prepare` it only tells whether that
+  /// is possible. Throws when no rule has this name, or its contact model makes no bonds.
+  void bond(const std::string& rule, double gap, bool again) const {
+    if (table_->struct_size < offsetof(scree_host, bond) + sizeof table_->bond)
+      throw std::runtime_error("this scree is too old to make bonds");
+    if (table_->bond(table_->self, rule.c_str(), gap, again ? 1 : 0) == 0)
+      throw std::runtime_error("rule '" + rule +
+                               "' cannot bond: there is none of this name, its contact model makes no bonds, or the "
+                               "gap is negative or not a number");
   }
 
  private:
