@@ -29,7 +29,7 @@ struct ContactBond : GluedSprings {
   using LinearSprings::stiffness;
 
   void law(const Contact& c, State& s, Bond& b, Response& r) const {
-    glued_law(c, opened_since(c, b.mode, b.gap), s, b.mode, r);
+    b.mode = glued_law(c, opened_since(c, b.mode, b.gap), s, b.mode, r);
     b.gap = c.gap;
   }
   void energy(const Contact& c, const State& s0, const State& s, const Bond& b0, const Bond& b, const Response& r,

@@ -6,11 +6,11 @@
 
 namespace scree {
 
-/// What a bond may be, in PFC's numbers; a word of Bond starts at 0.
-constexpr double bond_new = 0, bond_broke_in_tension = 1, bond_broke_in_shear = 2, bond_holds = 3;
-SCREE_INLINE bool bond_broke(double mode) { return mode == bond_broke_in_tension || mode == bond_broke_in_shear; }
+/// The mode of a bond, a word of Bond: it starts at 0, and what is above 0 has broken.
+constexpr double bond_holds = -1, bond_new = 0, bond_broke_in_tension = 1, bond_broke_in_shear = 2;
+SCREE_INLINE bool bond_broke(double mode) { return mode > 0; }
 /// As `broken` of a contact model says it: 0 intact, 1 tension, 2 shear.
-SCREE_INLINE double break_of(double mode) { return bond_broke(mode) ? mode : 0.0; }
+SCREE_INLINE double break_of(double mode) { return mode > 0 ? mode : 0.0; }
 
 struct GluedSprings : LinearSprings {
   double cb_tenf, cb_shearf;
@@ -35,8 +35,8 @@ struct GluedSprings : LinearSprings {
   /// What is left of a normal force that held: a contact without a bond does not pull, nor act above its reference gap.
   SCREE_INLINE static double left_of(double normal, bool active) { return active ? max(0.0, normal) : 0.0; }
 
-  /// One cycle. `mode` is the bond's and moves on; 1 or 2 is no bond.
-  SCREE_INLINE void glued_law(const Contact& c, double opened, State& s, double& mode, Response& r) const {
+  /// One cycle of a bond in `mode`, where 1 and 2 are no bond; its mode afterwards.
+  SCREE_INLINE double glued_law(const Contact& c, double opened, State& s, double mode, Response& r) const {
     const bool held = !bond_broke(mode);
     const Glued before = glued(c, s, opened, held);
     const Vec3 trial = before.shear_before - ks * c.slip();
@@ -45,11 +45,6 @@ struct GluedSprings : LinearSprings {
     const bool torn = held && before.normal < 0 && !(-before.normal < cb_tenf);
     const bool sheared = held && size > 0 && !(size < cb_shearf);
     const bool holds = held && !torn && !sheared;
-    double next = mode;  // one store, or g++ makes no vector loop of it
-    if (held) next = bond_holds;
-    if (sheared) next = bond_broke_in_shear;
-    if (torn) next = bond_broke_in_tension;
-    mode = next;
     const double normal = holds ? before.normal : left_of(before.normal, before.active);
     const double limit = fric * normal;
     const bool sliding = !holds && size > limit;
@@ -58,6 +53,7 @@ struct GluedSprings : LinearSprings {
     r.force = glued_normal(c, normal, before.active, holds) * c.normal + shear -
               glued_dashpot(c, before.active, holds, sliding);
     r.sliding = sliding;
+    return torn ? +bond_broke_in_tension : sheared ? +bond_broke_in_shear : held ? +bond_holds : +mode;
   }
   // Dashpots of a contact that holds act at any gap, and the modes that spare a free contact leave them alone.
   SCREE_INLINE double glued_normal(const Contact& c, double spring, bool active, bool holds) const {
