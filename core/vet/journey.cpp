@@ -92,6 +92,13 @@ Seen Journey::next(double dt) {
   return s;
 }
 
+Seen Journey::still() const {
+  Seen s = piece_;
+  s.normal = frame_[0];
+  s.gap = at_[0];
+  return s;
+}
+
 Party::Party(const Case& c, Part of, std::size_t count, uint64_t seed, bool turning) : model_case(c), part(of) {
   Numbers random(seed);
   for (std::size_t i = 0; i < count; ++i) journeys.emplace_back(c, of, random.bits(), turning);
@@ -104,6 +111,10 @@ void Party::restart(uint32_t steps_per_leg) {
 
 void Party::step(double dt) {
   for (std::size_t i = 0; i < journeys.size(); ++i) seen[i] = journeys[i].next(dt);
+}
+
+void Party::rest() {
+  for (std::size_t i = 0; i < journeys.size(); ++i) seen[i] = journeys[i].still();
 }
 
 void Party::put(LawBench& bench) const {

@@ -20,6 +20,8 @@ class Journey {
   bool done() const { return step_ >= legs * steps_; }
   /// One step of length dt.
   Seen next(double dt);
+  /// At rest where the last step ended.
+  Seen still() const;
 
   const Vec3& normal() const { return frame_[0]; }
   const Vec3& across(std::size_t k) const { return frame_[1 + k]; }
@@ -47,6 +49,8 @@ class Party {
   bool done() const { return journeys.front().done(); }
   /// The next step of all; then `seen` says what a law sees.
   void step(double dt);
+  /// All at rest where they are.
+  void rest();
   void put(LawBench& bench) const;
   /// A bench for these contacts.
   std::unique_ptr<LawBench> bench() const;
