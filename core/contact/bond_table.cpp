@@ -39,9 +39,8 @@ void BondTable::sort(std::size_t rows) {
 BondTable bond_table(const std::vector<TouchList>& lists, const std::vector<NewBond>& fresh, const RuleBook& book,
                      const std::vector<uint32_t>& old_row, std::size_t rows) {
   BondTable table;
-  const bool any = std::any_of(lists.begin(), lists.end(), [](const TouchList& list) {
-    return list.bonded && list.size() > 0;
-  });
+  const bool any =
+      std::any_of(lists.begin(), lists.end(), [](const TouchList& list) { return list.bonded && list.size() > 0; });
   if (!any && fresh.empty()) return table;
   const std::vector<uint32_t> now = rows_now(lists, old_row, rows);
   const auto add = [&](uint32_t a, uint32_t b, uint16_t rule, std::size_t from) {

@@ -1,4 +1,7 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
+
 #include "core/contact/scratch.hpp"
 
 namespace scree::core {
@@ -19,6 +22,15 @@ struct ContactEnergy {
     broken += other.broken;
     return *this;
   }
+  /// The work of dashpots by the trapezoidal rule. A law knows only the velocity of the half step before its force, and
+  /// with it says what the dashpots took; the velocity of the half step after it is seen one pass later. Half of each
+  /// counts; as both are squares of a velocity, their geometric mean is the mixed product. `last` is what the pass
+  /// before said.
+  static double dashpot_work(double now, double last) {
+    return 0.5 * now + 0.5 * std::sqrt(std::max(0.0, now) * std::max(0.0, last));
+  }
+  /// A contact ended: the second half of its last force.
+  static double dashpot_end(double last) { return 0.5 * last; }
   /// The first n contacts of a batch whose law filled the energies.
   void add(bool bonded, uint32_t n, const Scratch& s) {
     double stored = 0;

@@ -28,6 +28,17 @@ void store_columns(TouchList& list, uint32_t n, const Scratch& s) {
   for (uint32_t k = 0; k < n; ++k) list.active[s.slot[k]] = 1;
 }
 
+// Contacts that ended.
+void forget_state(TouchList& list, const uint32_t* slots, uint32_t count, ContactEnergy& energy) {
+  for (auto& column : list.state)
+    for (uint32_t k = 0; k < count; ++k) column[slots[k]] = 0;
+  if (list.dashpot.size() != list.size()) return;
+  for (uint32_t k = 0; k < count; ++k) {
+    energy.dashpot += ContactEnergy::dashpot_end(list.dashpot[slots[k]]);
+    list.dashpot[slots[k]] = 0;
+  }
+}
+
 // A bond that broke waits in its list for the next rebuild; until then it is a contact while its pieces touch.
 void mark_broken(TouchList& list, double reach, uint32_t n, const Scratch& s) {
   for (uint32_t k = 0; k < n; ++k) {
@@ -106,8 +117,8 @@ double least_of(const double* values, std::size_t n) { return n == 0 ? 1.0 : *st
 }  // namespace
 
 // Runs the law on the batch; on a break once more with energies, which the log of breaks wants.
-void Contacts::run_batch(TouchList& list, uint32_t n, const Balls& balls, const PassOptions& options,
-                         std::size_t block, Scratch& s) {
+void Contacts::run_batch(TouchList& list, uint32_t n, const Balls& balls, const PassOptions& options, std::size_t block,
+                         Scratch& s) {
   const BoundRule& rule = book.rules[list.rule];
   LawCall call{options.dt, list.bonded, options.energy};
   load_columns(list, n, s);
@@ -127,7 +138,15 @@ void Contacts::run_batch(TouchList& list, uint32_t n, const Balls& balls, const 
   store_columns(list, n, s);
   if (list.bonded) mark_broken(list, rule.reach, n, s);
   if (broke > 0) note_breaks(list, balls, n, s, broke_[block]);
-  if (options.energy) block_energy_[block].add(list.bonded, n, s);
+  if (options.energy) {
+    for (uint32_t k = 0; k < n && options.dt > 0; ++k) {
+      double& last = list.dashpot[s.slot[k]];
+      const double now = s.energy[2][k];
+      s.energy[2][k] = ContactEnergy::dashpot_work(now, last);
+      last = now;
+    }
+    block_energy_[block].add(list.bonded, n, s);
+  }
   if (options.report) store_report(list, rule, n, s);
 }
 
@@ -152,9 +171,7 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
   while (cursor.row < last) {
     uint32_t drops[Scratch::padded], dropped = 0;
     const uint32_t n = filter(view, input, cursor, list.active.data(), s, drops, dropped);
-    if (!list.bonded)
-      for (auto& column : list.state)
-        for (uint32_t k = 0; k < dropped; ++k) column[drops[k]] = 0;
+    if (!list.bonded) forget_state(list, drops, dropped, block_energy_[block]);
     if (n == 0) continue;
     if (geometry(view, n, options.dt, options.overlap_limit, s) && !excess.found)
       excess = pair_excess(rule, balls, n, options.overlap_limit, s);
@@ -212,6 +229,8 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
     for (TouchList& list : lists_)
       if (list.report.empty() || list.report[0].size() != list.size())
         list.report.assign(7, Array<double>(list.size()));
+  for (TouchList& list : lists_)
+    if (options.energy && list.dashpot.size() != list.size()) list.dashpot = Array<double>(list.size());
   std::vector<Excess> excess(slices_.blocks());
   broke_.resize(slices_.blocks());
   block_energy_.resize(slices_.blocks());
@@ -245,7 +264,8 @@ double Contacts::wall_stiffness(std::size_t wall, const Balls& balls, const std:
   double sum = 0;
   for (const WallList& list : wall_lists_) {
     if (list.wall != wall || book.rules[list.rule].model == nullptr) continue;
-    const WallPass pass{&view, balls.id(), &walls[wall], &book.rules[list.rule], 0, nullptr, 0, 0, 1, false, false, 0, nullptr};
+    const WallPass pass{&view, balls.id(), &walls[wall], &book.rules[list.rule], 0, nullptr, 0, 0, 1, false,
+                        false, 0,          nullptr};
     sum += wall_list_stiffness(list, pass, scratch_[0]);
   }
   return sum;

@@ -35,16 +35,16 @@ struct Excess {
 struct Break {
   IdPair ids;
   uint16_t rule = 0;
-  uint8_t mode = 0;                 ///< 1 tension, 2 shear
-  std::array<double, 3> point{};    ///< where the pieces meet, m
-  double energy = 0;                ///< that the bond held, J; 0 where the law says nothing of energy
+  uint8_t mode = 0;               ///< 1 tension, 2 shear
+  std::array<double, 3> point{};  ///< where the pieces meet, m
+  double energy = 0;              ///< that the bond held, J; 0 where the law says nothing of energy
 };
 
 /// Which pairs an order to bond means.
 struct BondOrder {
   uint16_t rule = 0;
-  double gap = 0;      ///< largest gap of a pair that is bonded, m
-  bool again = true;   ///< also pairs whose bond broke
+  double gap = 0;                                                ///< largest gap of a pair that is bonded, m
+  bool again = true;                                             ///< also pairs whose bond broke
   std::function<bool(uint16_t group1, uint16_t group2)> chosen;  ///< empty: all pairs of the rule
 };
 
@@ -94,7 +94,8 @@ class Contacts {
   void restore(std::vector<TouchList> lists, std::vector<WallList> wall_lists, std::vector<uint32_t> rows_before,
                bool built, std::size_t rows, Team& team);
   /// Bonds the pairs of a rule whose gap is at most that of the order and which are not bonded yet; they are in the
-  /// bonded list from the next rebuild on, which must follow. The lists must be built and nothing moved since. How many.
+  /// bonded list from the next rebuild on, which must follow. The lists must be built and nothing moved since. How
+  /// many.
   uint64_t bond(const BondOrder& order, const Balls& balls, const PeriodicCell& cell, Team& team);
   /// Takes all bonds of a rule away, as if they had never been.
   void drop_bonds(std::size_t rule);
@@ -103,8 +104,9 @@ class Contacts {
   uint64_t bonded() const;  ///< bonds that hold
   /// Sums of the last pass that was asked for them.
   const ContactEnergy& energy() const { return energy_; }
-  BreakHistory breaks;                          ///< of all bonds so far
-  std::array<uint64_t, 2> broken_bonds{};       ///< how many broke so far, in tension and in shear
+  void set_energy(const ContactEnergy& energy) { energy_ = energy; }
+  BreakHistory breaks;                     ///< of all bonds so far
+  std::array<uint64_t, 2> broken_bonds{};  ///< how many broke so far, in tension and in shear
   std::size_t bytes() const;
   uint64_t active() const;  ///< ball-ball contacts whose law runs
   uint64_t listed() const;  ///< pairs in lists, touching or not
@@ -120,10 +122,10 @@ class Contacts {
   void run_batch(TouchList& list, uint32_t n, const Balls& balls, const PassOptions& options, std::size_t block,
                  Scratch& scratch);
   void give_wall_slots(const std::vector<WallList>& old, const std::vector<uint32_t>& new_row);
-  std::vector<TouchList> lists_;         ///< see lists()
-  std::vector<NewBond> fresh_;           ///< made at the next rebuild
-  std::vector<std::vector<Break>> broke_;       ///< in the last pass, by block
-  std::vector<ContactEnergy> block_energy_;     ///< of the last pass
+  std::vector<TouchList> lists_;             ///< see lists()
+  std::vector<NewBond> fresh_;               ///< made at the next rebuild
+  std::vector<std::vector<Break>> broke_;    ///< in the last pass, by block
+  std::vector<ContactEnergy> block_energy_;  ///< of the last pass
   ContactEnergy energy_;
   std::vector<WallList> wall_lists_;     ///< by block, wall and rule
   std::vector<std::size_t> wall_first_;  ///< first wall list of each block; blocks + 1

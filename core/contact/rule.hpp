@@ -33,12 +33,12 @@ struct BoundRule {
   std::vector<uint32_t> varying;  ///< words with a value per contact, ascending
   /// Fills all words of a new contact; empty when nothing varies. [any thread]
   std::function<void(const Birth&, double* words)> vary;
-  double reach = 0;         ///< largest gap at which the law runs, m
-  uint32_t needs = 0;       ///< flags of the law, or SCREE_NORMAL_ONLY
-  scree_law law = nullptr;  ///< chosen for the instruction set and for uniform or varying properties
+  double reach = 0;                ///< largest gap at which the law runs, m
+  uint32_t needs = 0;              ///< flags of the law, or SCREE_NORMAL_ONLY
+  scree_law law = nullptr;         ///< chosen for the instruction set and for uniform or varying properties
   scree_law energy_law = nullptr;  ///< the same that also fills the energies; null: the model has none
   scree_law bonded_law = nullptr;  ///< of bonded pairs, fills energies when asked; null: the model has no bond
-  Array<double> constants;  ///< SCREE_BATCH copies of every word: what a law reads where a word does not vary
+  Array<double> constants;         ///< SCREE_BATCH copies of every word: what a law reads where a word does not vary
 
   bool normal_only() const { return (needs & SCREE_NORMAL_ONLY) != 0; }
   bool can_bond() const { return model != nullptr && (model->flags & SCREE_CAN_BOND) != 0; }

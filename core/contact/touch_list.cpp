@@ -146,7 +146,7 @@ uint32_t nearest_image(const Balls& balls, const PeriodicCell& cell, uint32_t lo
 }  // namespace
 
 std::size_t TouchList::bytes() const {
-  std::size_t sum = begin.bytes() + other.bytes() + where.bytes() + active.bytes() + broken.bytes();
+  std::size_t sum = begin.bytes() + other.bytes() + where.bytes() + active.bytes() + broken.bytes() + dashpot.bytes();
   for (const auto& column : state) sum += column.bytes();
   for (const auto& column : property) sum += column.bytes();
   for (const auto& column : report) sum += column.bytes();
@@ -171,6 +171,7 @@ void rebuild(TouchList& list, const TouchList& bonded, const Carry& carry, Team&
     column = moved_column(column, beyond, from, team);
   };
   follow(list.active, &bonded.active);
+  if (list.dashpot.size() + bonded.dashpot.size() > 0) follow(list.dashpot, &bonded.dashpot);
   for (std::size_t w = 0; w < list.state.size(); ++w) follow(list.state[w], at(bonded.state, w));
   for (std::size_t v = 0; v < list.property.size(); ++v) follow(list.property[v], at(bonded.property, v));
   for (auto& column : list.report) column.resize(list.size());
@@ -207,6 +208,8 @@ TouchList rebuilt_bonds(const TouchList& old, const TouchList& touch, const Carr
   const std::size_t words = rule.memory_words(true);
   const Array<double> nothing(old.size());
   list.active = moved_column(old.active, &touch.active, from, team);
+  if (old.dashpot.size() == old.size() && touch.dashpot.size() > 0)
+    list.dashpot = moved_column(old.dashpot, &touch.dashpot, from, team);
   for (std::size_t w = 0; w < words; ++w)
     list.state.push_back(moved_column(w < old.state.size() ? old.state[w] : nothing, at(touch.state, w), from, team));
   for (std::size_t v = 0; v < rule.varying.size(); ++v)

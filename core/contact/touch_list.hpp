@@ -31,6 +31,7 @@ struct TouchList {
   Array<uint8_t> broken;                ///< bonded list: 0 while the bond holds, else how it broke
   std::vector<Array<double>> state;     ///< one per state word; of a bonded pair then one per word of its bond
   std::vector<Array<double>> property;  ///< one per varying word of the rule
+  Array<double> dashpot;                ///< J, what the dashpots took last; empty unless energy is traced
   /// Kept only for a consumer: force on piece 2 (x y z) and moment, sliding flag; empty otherwise.
   std::vector<Array<double>> report;
   uint16_t rule = 0;

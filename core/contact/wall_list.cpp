@@ -40,23 +40,29 @@ void carry_over(WallList& list, const WallTouches& touches, const WallPass& pass
   state.assign(touches.count * words, 0.0);
   property.resize(touches.count * varying);
   std::size_t old = 0;
+  const auto end_contact = [&](const WallSlot& slot) {
+    if (pass.energy != nullptr) pass.energy->dashpot += ContactEnergy::dashpot_end(slot.dashpot);
+  };
   for (uint32_t k = 0; k < touches.count; ++k) {
     const uint32_t t = touches.order[k], row = list.candidates[touches.ball[t]], patch = touches.patch[t];
     const V normal{touches.nx[t], touches.ny[t], touches.nz[t]};
     while (old < list.slots.size() &&
            (list.slots[old].row < row || (list.slots[old].row == row && list.slots[old].patch < patch)))
-      ++old;
+      end_contact(list.slots[old++]);
     const bool known = old < list.slots.size() && list.slots[old].row == row && list.slots[old].patch == patch;
-    slots[k] = {row, patch, known ? list.slots[old].normal : normal};
+    slots[k] = {row, patch, known ? list.slots[old].normal : normal, known ? list.slots[old].dashpot : 0.0};
     if (known) {
       std::copy_n(list.state.data() + old * words, words, state.begin() + static_cast<std::ptrdiff_t>(k * words));
-      std::copy_n(list.property.data() + old * varying, varying, property.begin() + static_cast<std::ptrdiff_t>(k * varying));
+      std::copy_n(list.property.data() + old * varying, varying,
+                  property.begin() + static_cast<std::ptrdiff_t>(k * varying));
+      ++old;
     } else if (varying > 0) {
       all = pass.rule->words;
       pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, row, normal, touches.distance[t]), all.data());
       for (std::size_t v = 0; v < varying; ++v) property[k * varying + v] = all[pass.rule->varying[v]];
     }
   }
+  for (; old < list.slots.size(); ++old) end_contact(list.slots[old]);
   list.slots.swap(slots);
   list.state.swap(state);
   list.property.swap(property);
@@ -224,7 +230,15 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
     }
     for (std::size_t w = 0; w < words; ++w)
       for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
-    if (pass.energy != nullptr) pass.energy->add(false, n, s);
+    if (pass.energy != nullptr) {
+      for (uint32_t k = 0; k < n && pass.dt > 0; ++k) {
+        double& last = list.slots[first + k].dashpot;
+        const double now = s.energy[2][k];
+        s.energy[2][k] = ContactEnergy::dashpot_work(now, last);
+        last = now;
+      }
+      pass.energy->add(false, n, s);
+    }
     scatter(list, pass, first, n, s, excess);
   }
   return excess;

@@ -14,6 +14,7 @@ namespace scree::core {
 struct WallSlot {
   uint32_t row = 0, patch = 0;
   std::array<double, 3> normal{};  ///< of the last pass: its tilt turns the state
+  double dashpot = 0;              ///< J, what the dashpots took last, while energy is traced
 };
 
 /// Contacts of the balls of one block with one wall under one rule. Candidates are found at list rebuilds; contacts are

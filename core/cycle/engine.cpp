@@ -54,6 +54,14 @@ void Engine::check_cell() const {
   }
 }
 
+void Engine::check_energies() const {
+  for (const BoundRule& rule : contacts.book.rules)
+    if (rule.model != nullptr && rule.energy_law == nullptr)
+      throw Refusal(Exit::scene, "contact model '" + rule.model_name + "' of rule '" + rule.name +
+                                     "' does not tell its energies, so an energy balance cannot close: leave the "
+                                     "process that traces energy out, or use another model");
+}
+
 Engine::Census Engine::census() const {
   Census now{balls.size(), 0};
   for (std::size_t row = 0; row < balls.size(); ++row) now.ids += balls.id()[row];
@@ -87,6 +95,9 @@ void Engine::prepare() {
   balls.update_inverse_mass();
   adders_ = row_order(processes, true);
   scalers_ = row_order(processes, false);
+  ledger.on = std::any_of(processes.begin(), processes.end(),
+                          [](const Process& process) { return (process.table->flags & SCREE_TRACES_ENERGY) != 0; });
+  if (ledger.on) check_energies();
   double sum = 0;
   least_radius_ = largest_radius_ = 0;
   for (std::size_t row = 0; row < balls.size(); ++row) {
@@ -186,14 +197,48 @@ void Engine::forces() {
     bonds = true;
   }
   if (bonds) evaluate_forces();
+  if (!ledger.on) return;
+  if (!ledger.begun()) ledger.begin(stored_energy());
+  if (ledger.edited()) ledger.after_edit(stored_energy());
+}
+
+void Engine::before_edit() {
+  if (ledger.on && ledger.begun() && forces_current()) ledger.before_edit(stored_energy());
+}
+
+StoredEnergy Engine::stored_energy() {
+  const Observation& now = observe();
+  StoredEnergy stored;
+  stored.kinetic = now.kinetic;
+  stored.kinetic_shadow = now.kinetic_shadow;
+  stored.strain = contacts.energy().strain;
+  stored.bond = contacts.energy().bond;
+  stored.before = now.work_before;
+  stored.wall_before = wall_work(true);
+  return stored;
+}
+
+// Of the forces of now, over half of the drift that led here or of the coming one.
+double Engine::wall_work(bool before) const {
+  const double half = 0.5 * (before ? clock.dt_back : clock.dt);
+  double work = 0;
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    const Wall& wall = walls[k];
+    const bool known = before && k < wall_motion_.size();
+    for (std::size_t c = 0; c < 3; ++c)
+      work -= half * (wall.force[c] * (known ? wall_motion_[k][c] : wall.velocity[c]) +
+                      wall.moment[c] * (known ? wall_motion_[k][3 + c] : wall.spin[c]));
+  }
+  return work;
 }
 
 void Engine::evaluate_forces() {
   detect();
-  const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted};
+  const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted, ledger.on};
   const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
   contact_updates_ += contacts.listed();
   forces_current_ = true;
+  if (ledger.on) ledger.add_contacts(contacts.energy());
   for (const Break& one : contacts.take_breaks()) broken.push_back({clock.cycle, clock.time(), one});
   if (!excess.found) return;
   stop_excess(excess);
@@ -229,7 +274,8 @@ void Engine::stop_excess(const Excess& excess) const {
 
 MotionInput Engine::motion_input() {
   return {&balls,      &contacts.slices(), &adders_,      &scalers_, contacts.isa,
-          clock.cycle, clock.time(),       clock.dt_back, clock.dt,  sum_words(adders_) + sum_words(scalers_)};
+          clock.cycle, clock.time(),       clock.dt_back, clock.dt,  sum_words(adders_) + sum_words(scalers_),
+          ledger.on};
 }
 
 void Engine::stop_not_finite() {
@@ -330,6 +376,16 @@ void Engine::advance() {
         for (uint32_t k = 0; k < process->table->sums; ++k) const_cast<Process*>(process)->sums[k] += *sums++;
   }
   if (!finite) stop_not_finite();
+  if (ledger.on) {
+    RowWork work;
+    for (const MotionResult& result : motion_) work += result.work;
+    ledger.add_rows(work, contacts.energy().strain + contacts.energy().bond);
+    ledger.add_walls(wall_work(true) + wall_work(false));
+    wall_motion_.clear();
+    for (const Wall& wall : walls)
+      wall_motion_.push_back(
+          {wall.velocity[0], wall.velocity[1], wall.velocity[2], wall.spin[0], wall.spin[1], wall.spin[2]});
+  }
   drift_walls();
   ball_travel_ += fastest * clock.dt;
   clock.dt_back = clock.dt_law = clock.dt;
@@ -343,9 +399,11 @@ uint64_t Engine::bond(const BondOrder& order) {
   const double least = 2 * (2 * largest_radius_ + order.gap);
   for (int axis = 0; axis < 3; ++axis)
     if (cell.periodic[axis] && cell.length(axis) < least)
-      throw Refusal(Exit::scene, "a bond over a gap of " + number(order.gap) + " m could pass through two images of the "
-                                     "periodic cell, whose edge along " + std::string(1, "xyz"[axis]) + " is " +
-                                     number(cell.length(axis)) + " m: use a smaller gap");
+      throw Refusal(Exit::scene, "a bond over a gap of " + number(order.gap) +
+                                     " m could pass through two images of the "
+                                     "periodic cell, whose edge along " +
+                                     std::string(1, "xyz"[axis]) + " is " + number(cell.length(axis)) +
+                                     " m: use a smaller gap");
   forces_outdated();
   contacts.drop_lists();
   detect();
@@ -375,14 +433,23 @@ void Engine::forces_outdated() {
 }
 
 Engine::Loop Engine::loop() const {
-  return {ball_travel_, wall_travel_,    skin_, extent_, static_cast<uint8_t>(forces_current()),
-          rebuilds_,    contact_updates_};
+  return {ball_travel_,
+          wall_travel_,
+          skin_,
+          extent_,
+          contacts.energy(),
+          wall_motion_,
+          static_cast<uint8_t>(forces_current()),
+          rebuilds_,
+          contact_updates_};
 }
 
 void Engine::restore(const Loop& loop) {
   ball_travel_ = loop.ball_travel;
   wall_travel_ = loop.wall_travel;
   skin_ = loop.skin;
+  contacts.set_energy(loop.energy);
+  wall_motion_ = loop.wall_motion;
   extent_ = loop.extent;
   forces_current_ = loop.forces_current != 0;
   rebuilds_ = loop.rebuilds;

@@ -9,6 +9,7 @@
 #include "core/base/threads.hpp"
 #include "core/contact/contacts.hpp"
 #include "core/contact/step_bound.hpp"
+#include "core/cycle/energy_ledger.hpp"
 #include "core/cycle/motion.hpp"
 #include "core/cycle/observation.hpp"
 #include "core/cycle/process.hpp"
@@ -67,16 +68,17 @@ class Engine {
   Contacts contacts;
   std::vector<Process> processes;
   StepControl step;
+  EnergyLedger ledger;
   Clock clock;
   Team team;
   ProcessHost host;
   double overlap_limit = 0.5;
   double overlap_warning = 0.05;
-  double wanted_skin = 0;      ///< m; 0: chosen from the radii
-  bool unsafe = false;         ///< the user accepts a step above the bound
-  double idle_step = 0;        ///< s; what an automatic step is while there is no ball, where nothing limits it
-  bool sums_wanted = false;    ///< forces() also sums contact force sizes (unbalanced ratio)
-  bool report_wanted = false;  ///< forces() also keeps every contact's force
+  double wanted_skin = 0;          ///< m; 0: chosen from the radii
+  bool unsafe = false;             ///< the user accepts a step above the bound
+  double idle_step = 0;            ///< s; what an automatic step is while there is no ball, where nothing limits it
+  bool sums_wanted = false;        ///< forces() also sums contact force sizes (unbalanced ratio)
+  bool report_wanted = false;      ///< forces() also keeps every contact's force
   std::vector<BrokenBond> broken;  ///< bonds that broke and that nobody has taken from here yet, in order
   std::function<void(const std::string&)> warn = [](const std::string&) {};
 
@@ -89,6 +91,10 @@ class Engine {
   void forces();
   /// Reads time n; forces() must have run. Never changes the trajectory.
   const Observation& observe();
+  /// What is stored at time n, for the ledger; forces() must have run.
+  StoredEnergy stored_energy();
+  /// Call before an edit: what it does to the energy balance counts as work of the user.
+  void before_edit();
   /// Row processes, kick, drift, model processes: to time n+1.
   void advance();
   /// Bonds pairs at the positions of now; forces are evaluated again. How many were bonded.
@@ -109,6 +115,8 @@ class Engine {
   /// What a checkpoint holds beside columns.
   struct Loop {
     double ball_travel, wall_travel, skin, extent;
+    ContactEnergy energy;                            ///< of the last pass
+    std::vector<std::array<double, 6>> wall_motion;  ///< of the last drift, while energy is traced
     uint8_t forces_current;
     uint64_t rebuilds, contact_updates;
   };
@@ -121,7 +129,9 @@ class Engine {
   void evaluate_forces();
   void choose_step();
   void check_cell() const;
+  void check_energies() const;
   double exact_travel();
+  double wall_work(bool before) const;
   void drift_walls();
   void run_model_processes();
   [[noreturn]] void stop_excess(const Excess& excess) const;
@@ -144,6 +154,7 @@ class Engine {
   Census counted_;  ///< by the last prepare()
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;
+  std::vector<std::array<double, 6>> wall_motion_;  ///< velocity and spin of the last drift, for the ledger
   uint64_t rebuilds_ = 0, contact_updates_ = 0;
   bool forces_current_ = false, warned_overlap_ = false;
 };

@@ -204,6 +204,47 @@ void apply_scalers(const MotionInput& input, std::size_t first, std::size_t n, R
   }
 }
 
+void add_work(const MotionInput& input, std::size_t first, std::size_t n, const RowForces& net, const RowForces& full,
+              double span, RowWork& work) {
+  const Balls& balls = *input.balls;
+  const std::size_t stride = input.slices->stride();
+  const double* record = input.slices->record(first);
+  const uint8_t* fixed = balls.fixed();
+  const auto side = [&](Column column, const double* all, const double* before, std::size_t word, unsigned bit) {
+    const double* v = balls[column] + first;
+    const bool in_record = word < 3 || stride == Slices::with_spin;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double path = v[k] * span;
+      work.body += (before[k] - (in_record ? record[k * stride + word] : 0.0)) * path;
+      work.damping += (all[k] - before[k]) * path;
+      if (fixed != nullptr && (fixed[first + k] >> bit & 1u) != 0) work.boundary -= all[k] * path;
+    }
+  };
+  for (unsigned c = 0; c < 3; ++c)
+    side(static_cast<Column>(static_cast<unsigned>(Column::vx) + c), full.force[c], net.force[c], c, c);
+  for (unsigned c = 0; c < 3 && balls.has(Column::wx); ++c)
+    side(static_cast<Column>(static_cast<unsigned>(Column::wx) + c), full.moment[c], net.moment[c], 3 + c, 3 + c);
+}
+
+namespace {
+
+double kinetic(const Balls& balls, std::size_t first, std::size_t n) {
+  double sum = 0;
+  for (std::size_t row = first; row < first + n; ++row) {
+    const double mass = balls[Column::mass][row], radius = balls[Column::radius][row];
+    for (int c = 0; c < 3; ++c) {
+      const double v = balls[static_cast<Column>(static_cast<int>(Column::vx) + c)][row];
+      sum += 0.5 * mass * v * v;
+      if (!balls.has(Column::wx)) continue;
+      const double w = balls[static_cast<Column>(static_cast<int>(Column::wx) + c)][row];
+      sum += 0.2 * mass * radius * radius * w * w;
+    }
+  }
+  return sum;
+}
+
+}  // namespace
+
 MotionResult move_block(const MotionInput& input, std::size_t block, double* sums) {
   Balls& balls = *input.balls;
   input.slices->fold(block);
@@ -211,12 +252,19 @@ MotionResult move_block(const MotionInput& input, std::size_t block, double* sum
   const bool spin = balls.has(Column::wx);
   const Kick kick = kicks[input.isa][spin][balls.fixed() != nullptr];
   const double half = 0.5 * (input.dt_back + input.dt);
-  RowForces forces;
+  RowForces forces, net;
   double fastest = 0;
   const std::size_t begin = block * block_rows, end = begin + input.slices->block_size(block);
   for (std::size_t first = begin; first < end; first += SCREE_ROWS) {
     const std::size_t n = std::min<std::size_t>(SCREE_ROWS, end - first);
-    gather_forces(input, first, n, forces, true, sums);
+    if (input.energy) {
+      gather_forces(input, first, n, net, false, sums);
+      forces = net;
+      apply_scalers(input, first, n, forces, sums == nullptr ? nullptr : sums + sum_words(*input.adders));
+      add_work(input, first, n, net, forces, 0.5 * input.dt_back, result.work);
+    } else {
+      gather_forces(input, first, n, forces, true, sums);
+    }
     Chunk chunk{};
     for (int c = 0; c < 3; ++c) {
       chunk.x[c] = balls[static_cast<Column>(static_cast<int>(Column::x) + c)] + first;
@@ -228,6 +276,10 @@ MotionResult move_block(const MotionInput& input, std::size_t block, double* sum
     chunk.fixed = balls.fixed() != nullptr ? balls.fixed() + first : nullptr;
     chunk.n = n;
     const Verdict verdict = kick(chunk, forces, half, input.dt);
+    if (input.energy) {
+      add_work(input, first, n, net, forces, 0.5 * input.dt, result.work);
+      result.work.kinetic += kinetic(balls, first, n);
+    }
     fastest = std::max(fastest, verdict.fastest_square);
     result.finite = result.finite && verdict.finite;
   }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/contact/slices.hpp"
+#include "core/cycle/energy_ledger.hpp"
 #include "core/cycle/process.hpp"
 #include "core/world/balls.hpp"
 
@@ -18,12 +19,14 @@ struct MotionInput {
   uint64_t cycle = 0;
   double time = 0, dt_back = 0, dt = 0;  ///< s; dt_back is 0 after a start or an edit
   std::size_t sum_words = 0;             ///< of the row processes, one after the other
+  bool energy = false;                   ///< also the work of the forces
 };
 
 /// What the guards and the next cycle need to know of a pass, by block.
 struct MotionResult {
   double fastest = 0;  ///< largest |v|, m/s
   bool finite = true;
+  RowWork work;  ///< if asked for
 };
 
 /// Words of sums that all these processes have.
@@ -40,6 +43,10 @@ struct RowForces {
 /// `sums` is null on an evaluation for output.
 void gather_forces(const MotionInput& input, std::size_t first, std::size_t n, RowForces& forces, bool scale,
                    double* sums);
+/// Adds the work of the forces on rows [first, first + n) over a time `span` with the velocities of now: of what beside
+/// the contacts acts (`net` less the contact forces), of the scalers (`full` less `net`), and of prescribed motion.
+void add_work(const MotionInput& input, std::size_t first, std::size_t n, const RowForces& net, const RowForces& full,
+              double span, RowWork& work);
 void apply_scalers(const MotionInput& input, std::size_t first, std::size_t n, RowForces& forces, double* sums);
 
 }  // namespace scree::core

@@ -11,6 +11,7 @@ namespace {
 
 struct BlockSums {
   double net = 0, contact = 0, most = 0, kinetic = 0, shadow = 0;
+  RowWork work;
   uint64_t free = 0;
 };
 
@@ -39,7 +40,7 @@ const Observation& Engine::observe() {
   team.each_block(slices.blocks(), [&](std::size_t block) {
     slices.fold(block);
     BlockSums& s = sums[block];
-    RowForces f;
+    RowForces f, unscaled;
     const std::size_t begin = block * block_rows, end = begin + slices.block_size(block);
     const uint8_t* fixed = balls.fixed();
     for (std::size_t first = begin; first < end; first += SCREE_ROWS) {
@@ -58,7 +59,9 @@ const Observation& Engine::observe() {
         s.contact += slices.record(row)[stride == Slices::with_spin ? 6 : 3];
         ++s.free;
       }
+      if (input.energy) unscaled = f;
       apply_scalers(input, first, count, f, nullptr);
+      if (input.energy) add_work(input, first, count, unscaled, f, 0.5 * clock.dt_back, s.work);
       for (std::size_t k = 0; k < count; ++k) {
         const std::size_t row = first + k;
         const double mass = balls[Column::mass][row], radius = balls[Column::radius][row];
@@ -69,14 +72,17 @@ const Observation& Engine::observe() {
           const double now = v + 0.5 * clock.dt_back * a;
           observation_.velocity[c][row] = now;
           s.kinetic += 0.5 * mass * now * now;
-          s.shadow += 0.5 * mass * v * (v + 0.5 * (clock.dt_back + clock.dt) * a);
+          // Where no drift led here, the half-step velocity before is the one that leads to v(n).
+          const double back = clock.dt_back > 0 ? v : v - 0.5 * clock.dt * a;
+          s.shadow += 0.5 * mass * back * (now + 0.5 * clock.dt * a);
           if (!spin) continue;
           const double w = balls[after(Column::wx, c)][row];
           const double b = fixed_in(fixed, row, 3 + c) ? 0.0 : f.moment[c][k] / inertia;
           const double turning = w + 0.5 * clock.dt_back * b;
           observation_.spin[c][row] = turning;
           s.kinetic += 0.5 * inertia * turning * turning;
-          s.shadow += 0.5 * inertia * w * (w + 0.5 * (clock.dt_back + clock.dt) * b);
+          const double before = clock.dt_back > 0 ? w : w - 0.5 * clock.dt * b;
+          s.shadow += 0.5 * inertia * before * (turning + 0.5 * clock.dt * b);
         }
       }
     }
@@ -89,6 +95,7 @@ const Observation& Engine::observe() {
     total.kinetic += s.kinetic;
     total.shadow += s.shadow;
     total.free += s.free;
+    total.work += s.work;
   }
   const double free = static_cast<double>(std::max<uint64_t>(1, total.free));
   const auto ratio = [&](double value) {
@@ -99,6 +106,7 @@ const Observation& Engine::observe() {
   observation_.unbalanced_max = ratio(total.most);
   observation_.kinetic = total.kinetic;
   observation_.kinetic_shadow = total.shadow;
+  observation_.work_before = total.work;
   observation_.cycle = clock.cycle;
   return observation_;
 }

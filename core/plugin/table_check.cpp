@@ -127,7 +127,8 @@ void check_object(const scree_object& o, const TableRefusal& refuse) {
 
 void check_process(const scree_process& p, const TableRefusal& refuse) {
   check_object(p.object, refuse);
-  if (p.rows[0] == nullptr && p.step == nullptr) refuse("it has neither 'rows' nor 'step', so it does nothing");
+  if (p.rows[0] == nullptr && p.step == nullptr && (p.flags & SCREE_TRACES_ENERGY) == 0)
+    refuse("it has neither 'rows' nor 'step', so it does nothing");
   if (p.need_count > most_needs || (p.need_count > 0 && p.needs == nullptr))
     refuse("its list of needed columns is not sound");
   for (uint32_t k = 0; k < p.need_count; ++k)

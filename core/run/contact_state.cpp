@@ -33,6 +33,7 @@ void save_list(const TouchList& list, std::size_t index, ArchiveWriter& out) {
   out.put(section_of(index, "where"), view(list.where));
   out.put(section_of(index, "active"), view(list.active));
   if (list.bonded) out.put(section_of(index, "broken"), view(list.broken));
+  out.put(section_of(index, "dashpot"), view(list.dashpot));
   out.put(section_of(index, "words"),
           std::vector<uint64_t>{list.state.size(), list.property.size(), list.stale ? 1u : 0u});
   for (std::size_t w = 0; w < list.state.size(); ++w)
@@ -95,6 +96,9 @@ TouchList read_list(const ArchiveReader& in, std::size_t index, uint64_t rows, s
     list.state.push_back(read_array<double>(in, section_of(index, "state/" + std::to_string(w)), slots));
   for (uint64_t v = 0; v < words[1]; ++v)
     list.property.push_back(read_array<double>(in, section_of(index, "property/" + std::to_string(v)), slots));
+  list.dashpot = read_array<double>(in, section_of(index, "dashpot"), ArchiveReader::any_count);
+  want(list.dashpot.size() == 0 || list.dashpot.size() == slots, in, section_of(index, "dashpot"),
+       "its size differs from the number of contacts");
   list.stale = words[2] != 0;
   if (!list.begin.empty()) check_rows(list, index, in, rows);
   return list;

@@ -12,7 +12,7 @@ struct SavedContacts {
   std::vector<std::string> rules, models;             ///< of each rule; its touch list has its index
   std::vector<std::vector<std::string>> state_names;  ///< of each rule
   std::vector<std::size_t> varying;                   ///< varying words of each rule
-  std::vector<TouchList> lists;  ///< touch lists, then bonded lists
+  std::vector<TouchList> lists;                       ///< touch lists, then bonded lists
   BreakHistory breaks;
   std::array<uint64_t, 2> broken_bonds{};
   std::vector<WallList> wall_lists;

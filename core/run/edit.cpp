@@ -35,6 +35,7 @@ Triple triple(const Value& value) {
 }  // namespace
 
 void Simulation::edit(const Action& action) {
+  engine.before_edit();
   if (const auto* add = std::get_if<AddAction>(&action.what)) edit_add(*add);
   if (const auto* set = std::get_if<SetAction>(&action.what)) edit_set(*set);
   if (const auto* remove = std::get_if<DeleteAction>(&action.what)) edit_delete(*remove);

@@ -60,6 +60,30 @@ void save_loop(const Engine::Loop& loop, ArchiveWriter& out) {
   out.put("loop", packer.bytes());
 }
 
+void save_ledger(const Engine& engine, ArchiveWriter& out) {
+  const auto words = engine.ledger.save();
+  const Engine::Loop loop = engine.loop();
+  Packer packer;
+  packer.f64s(words.data(), words.size());
+  packer.f64s(&loop.energy.strain, 1);
+  packer.f64s(&loop.energy.bond, 1);
+  packer.u64(loop.wall_motion.size());
+  for (const auto& motion : loop.wall_motion) packer.f64s(motion.data(), motion.size());
+  out.put("energy", packer.bytes());
+}
+
+void load_ledger(Engine& engine, Engine::Loop& loop, const ArchiveReader& archive) {
+  Unpacker in(archive, "energy");
+  std::array<double, EnergyLedger::saved_words> words{};
+  in.f64s(words.data(), words.size());
+  engine.ledger.load(words);
+  loop.energy.strain = in.f64();
+  loop.energy.bond = in.f64();
+  loop.wall_motion.resize(static_cast<std::size_t>(in.count()));
+  for (auto& motion : loop.wall_motion) in.f64s(motion.data(), motion.size());
+  in.finish();
+}
+
 Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
   Unpacker in(archive, "loop");
   Engine::Loop loop{};
@@ -149,6 +173,7 @@ void save_engine(const Engine& engine, ArchiveWriter& out) {
   save_clock(engine.clock, out);
   save_step(engine.step, out);
   save_loop(engine.loop(), out);
+  if (engine.ledger.on) save_ledger(engine, out);
   if (engine.forces_current()) out.put("forces", engine.contacts.slices().save());
 }
 
@@ -166,7 +191,8 @@ void load_engine(Engine& engine, const ArchiveReader& in, std::size_t groups) {
   load_published(engine.host.published, in);
   load_clock(engine.clock, in);
   load_step(engine.step, in);
-  const Engine::Loop loop = read_loop(in, engine.contacts.built());
+  Engine::Loop loop = read_loop(in, engine.contacts.built());
+  if (engine.ledger.on) load_ledger(engine, loop, in);
   engine.restore(loop);
   if (loop.forces_current == 0) return;
   Slices& slices = engine.contacts.slices();

@@ -23,9 +23,9 @@ void EventLog::take(Engine& engine) {
   begun_ = true;
   for (const BrokenBond& bond : engine.broken)
     text += fmt::format("{},{},bond_break,{},{},{},{},{},{},{},{}\n", bond.cycle, bond.time,
-                        modes[bond.what.mode <= 2 ? bond.what.mode : 0], engine.contacts.book.rules[bond.what.rule].name,
-                        bond.what.ids.first, bond.what.ids.second, bond.what.point[0], bond.what.point[1],
-                        bond.what.point[2], bond.what.energy);
+                        modes[bond.what.mode <= 2 ? bond.what.mode : 0],
+                        engine.contacts.book.rules[bond.what.rule].name, bond.what.ids.first, bond.what.ids.second,
+                        bond.what.point[0], bond.what.point[1], bond.what.point[2], bond.what.energy);
   files_->append(file_name, text.data(), text.size());
   engine.broken.clear();
 }

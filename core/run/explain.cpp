@@ -146,8 +146,7 @@ void add_columns(const BoundRule& rule, bool bonded, std::vector<Stored>& out) {
     out.push_back({state.name, "remembered by " + rule.model_name, state.words * sizeof(double)});
     named += state.words;
   }
-  if (words > named)
-    out.push_back({"state", "remembered by " + rule.model_name, (words - named) * sizeof(double)});
+  if (words > named) out.push_back({"state", "remembered by " + rule.model_name, (words - named) * sizeof(double)});
   for (const uint32_t word : rule.varying)
     out.push_back({word_name(*rule.model, word), "differs from contact to contact", sizeof(double)});
 }

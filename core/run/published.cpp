@@ -1,5 +1,6 @@
 #include "core/run/published.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -102,6 +103,18 @@ struct Vectors {
 };
 const Vectors vectors[] = {{"momentum", "kg m/s", momentum}, {"angular_momentum", "kg m2/s", angular_momentum}};
 
+// The terms of the energy balance, while a process traces it.
+std::optional<Published> find_energy(const std::string& name, Simulation& simulation) {
+  if (!simulation.engine.ledger.on || !name.starts_with("energy.")) return std::nullopt;
+  const std::string term = name.substr(7);
+  const auto& terms = EnergyLedger::terms();
+  const bool share = term == "residual_share";
+  if (term != "residual" && !share && std::find(terms.begin(), terms.end(), term) == terms.end()) return std::nullopt;
+  return Published{share ? "1" : "J", pass, [&simulation, term] {
+                     return simulation.engine.ledger.value(term, simulation.engine.stored_energy());
+                   }};
+}
+
 std::optional<Published> find_plain(const std::string& name, Simulation& simulation, Instant& now) {
   for (const Plain& one : plain)
     if (name == one.name)
@@ -119,6 +132,7 @@ std::optional<Published> find_plain(const std::string& name, Simulation& simulat
 
 std::optional<Published> find_published(const std::string& name, Simulation& simulation, Instant& instant) {
   if (auto found = find_plain(name, simulation, instant)) return found;
+  if (auto found = find_energy(name, simulation)) return found;
   if (auto found = find_wall_quantity(name, simulation.engine)) return found;
   if (auto found = find_ball_quantity(name, simulation.engine, instant)) return found;
   if (auto found = find_contact_quantity(name, simulation.engine, instant)) return found;
@@ -135,6 +149,10 @@ std::vector<std::string> published_names(const Simulation& simulation, const std
   for (const Plain& one : plain) names.emplace_back(one.name);
   for (const Vectors& one : vectors)
     for (const char axis : {'x', 'y', 'z'}) names.push_back(std::string(one.name) + "." + axis);
+  if (simulation.engine.ledger.on) {
+    for (const std::string& term : EnergyLedger::terms()) names.push_back("energy." + term);
+    names.insert(names.end(), {"energy.residual", "energy.residual_share"});
+  }
   for (const Wall& wall : simulation.engine.walls) add_wall_names(wall.name, names);
   for (const auto& [name, value] : simulation.engine.host.published) names.push_back(name);
   add_piece_names(like, names);

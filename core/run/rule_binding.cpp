@@ -288,7 +288,8 @@ BoundRule bind_rule(const Simulation& simulation, const Rule& rule) {
   binding->base.assign(binding->table->rule_words, 0.0);
   bound.model = binding->table;
   bound.model_name = binding->model;
-  if (binding->table->state_words + binding->table->bond_words > Scratch::state_words || binding->table->rule_words > 2 * Scratch::state_words)
+  if (binding->table->state_words + binding->table->bond_words > Scratch::state_words ||
+      binding->table->rule_words > 2 * Scratch::state_words)
     throw Refusal(Exit::plugin, "contact model '" + binding->model + "' has more than " +
                                     std::to_string(Scratch::state_words) + " state words or " +
                                     std::to_string(2 * Scratch::state_words) +

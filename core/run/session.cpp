@@ -204,6 +204,12 @@ void Session::read_quantities() {
   complete(final_needs_);
   for (const Quantity& quantity : simulation_->scene.quantities)
     values_.emplace_back(quantity.name, quantities_.value(quantity.name));
+  Engine& engine = simulation_->engine;
+  if (!engine.ledger.on) return;
+  const StoredEnergy now = engine.stored_energy();
+  energy_ = Summary::Energy{engine.ledger.residual_share(now), {}};
+  for (const std::string& term : EnergyLedger::terms())
+    energy_->terms.emplace_back(term, engine.ledger.value(term, now));
 }
 
 void Session::finish() {

@@ -72,6 +72,7 @@ class Session {
   std::string message_;
   std::vector<ExpectationResult> expectations_;
   Summary::Named values_;
+  std::optional<Summary::Energy> energy_;
   bool io_failed_ = false;
   bool unseen_ = true;  ///< no cycle of this session was completed yet
 };

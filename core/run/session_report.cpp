@@ -80,6 +80,7 @@ Summary Session::summary() const {
     }
     s.timestep = step;
   }
+  s.energy = energy_;
   s.quantities = values_;
   s.expectations = expectations_;
   s.error = measured_error(expectations_);

@@ -19,7 +19,7 @@ struct Columns {
   std::vector<uint32_t> block, candidate, slot_row, slot_patch;
   std::vector<uint16_t> wall, rule;
   std::vector<uint64_t> sizes;
-  std::vector<double> normal, state, property, resultant;
+  std::vector<double> normal, dashpot, state, property, resultant;
 };
 
 template <class T>
@@ -40,6 +40,7 @@ Columns columns_of(const std::vector<WallList>& lists) {
       c.slot_row.push_back(slot.row);
       c.slot_patch.push_back(slot.patch);
       append(c.normal, slot.normal);
+      c.dashpot.push_back(slot.dashpot);
     }
     append(c.state, list.state);
     append(c.property, list.property);
@@ -72,6 +73,7 @@ Columns read_columns(const ArchiveReader& in) {
   c.slot_row = in.get<uint32_t>("wall_lists/slot_row");
   c.slot_patch = in.get<uint32_t>("wall_lists/slot_patch", c.slot_row.size());
   c.normal = in.get<double>("wall_lists/slot_normal", 3 * c.slot_row.size());
+  c.dashpot = in.get<double>("wall_lists/slot_dashpot", c.slot_row.size());
   c.state = in.get<double>("wall_lists/state");
   c.property = in.get<double>("wall_lists/property");
   total(c, 0, c.candidate.size(), in);
@@ -117,6 +119,7 @@ void save_wall_lists(const std::vector<WallList>& lists, ArchiveWriter& out) {
   out.put("wall_lists/slot_row", c.slot_row);
   out.put("wall_lists/slot_patch", c.slot_patch);
   out.put("wall_lists/slot_normal", c.normal);
+  out.put("wall_lists/slot_dashpot", c.dashpot);
   out.put("wall_lists/state", c.state);
   out.put("wall_lists/property", c.property);
 }
@@ -134,8 +137,10 @@ std::vector<WallList> read_wall_lists(const ArchiveReader& in, const WallListLim
     want(k == 0 || lists[k - 1].block <= list.block, in, "wall_lists/block", "blocks are out of order");
     list.candidates = part(c.candidate, candidate, sizes[0]);
     for (uint64_t left = sizes[1]; left > 0; --left, ++slot)
-      list.slots.push_back(
-          {c.slot_row[slot], c.slot_patch[slot], {c.normal[3 * slot], c.normal[3 * slot + 1], c.normal[3 * slot + 2]}});
+      list.slots.push_back({c.slot_row[slot],
+                            c.slot_patch[slot],
+                            {c.normal[3 * slot], c.normal[3 * slot + 1], c.normal[3 * slot + 2]},
+                            c.dashpot[slot]});
     list.state = part(c.state, state, sizes[2]);
     list.property = part(c.property, property, sizes[3]);
     const double* sum = &c.resultant[k * resultant_words];

@@ -7,7 +7,8 @@ namespace {
 void read_between(const Node& node, BondAction& bond, Context& context) {
   const bool pair = node.is_list() && node.items.size() == 2;
   if (!pair)
-    context.report.error(node.place(), "'between' wants two sides, as in [sand, [gravel, sand]], not " + describe(node));
+    context.report.error(node.place(),
+                         "'between' wants two sides, as in [sand, [gravel, sand]], not " + describe(node));
   for (size_t side = 0; pair && side < 2; ++side) bond.between[side] = read_words(node.items[side], "between", context);
 }
 

@@ -192,15 +192,14 @@ class Checker {
     else if (!names_balls_twice(**rule))
       error(bond.rule.place, "rule '" + bond.rule.text + "' is between balls and walls, which cannot be bonded");
     else if (!bond.between[0].empty() && !sides_meet(**rule, bond.between))
-      error(bond.rule.place, "the groups of 'between' never meet under rule '" + bond.rule.text +
-                                 "': name groups that it is between");
+      error(bond.rule.place,
+            "the groups of 'between' never meet under rule '" + bond.rule.text + "': name groups that it is between");
   }
 
   bool names_balls_twice(const Rule& rule) const {
     return std::all_of(rule.between.begin(), rule.between.end(), [&](const std::vector<std::string>& side) {
-      return std::any_of(side.begin(), side.end(), [&](const std::string& name) {
-        return name != "walls" && !ever_walls_.contains(name);
-      });
+      return std::any_of(side.begin(), side.end(),
+                         [&](const std::string& name) { return name != "walls" && !ever_walls_.contains(name); });
     });
   }
 

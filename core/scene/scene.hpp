@@ -150,8 +150,8 @@ struct ApplyAction {
 /// Bonds the pairs of a rule that are near enough.
 struct BondAction {
   Name rule;
-  double gap = 0;     ///< m; pairs with at most this gap
-  bool again = true;  ///< also pairs whose bond broke
+  double gap = 0;                            ///< m; pairs with at most this gap
+  bool again = true;                         ///< also pairs whose bond broke
   std::array<std::vector<Name>, 2> between;  ///< groups; empty: all pairs of the rule
 };
 struct RunAction {

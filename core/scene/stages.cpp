@@ -7,8 +7,8 @@ namespace scree::core {
 namespace {
 
 const std::vector<std::string>& action_names() {
-  static const std::vector<std::string> names = {"add",   "set", "delete", "fix",  "free",   "apply", "bond",
-                                                 "solve", "run", "cycle",  "save", "include"};
+  static const std::vector<std::string> names = {"add",  "set",   "delete", "fix",   "free", "apply",
+                                                 "bond", "solve", "run",    "cycle", "save", "include"};
   return names;
 }
 

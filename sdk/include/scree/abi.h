@@ -253,7 +253,13 @@ enum {
   SCREE_FIXED = 8,
   SCREE_COLUMN_COUNT = 9
 };
-enum { SCREE_ADDS_FORCE = 1u << 0, SCREE_SCALES_FORCE = 1u << 1, SCREE_LOCAL_DAMPING = 1u << 2 };
+/* SCREE_TRACES_ENERGY: the host keeps an energy balance, its terms are the quantities energy.* */
+enum {
+  SCREE_ADDS_FORCE = 1u << 0,
+  SCREE_SCALES_FORCE = 1u << 1,
+  SCREE_LOCAL_DAMPING = 1u << 2,
+  SCREE_TRACES_ENERGY = 1u << 3
+};
 
 typedef struct scree_need {
   uint32_t column, access;

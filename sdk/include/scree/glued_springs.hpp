@@ -85,8 +85,8 @@ struct GluedSprings : LinearSprings {
   SCREE_INLINE static double let_go(const Vec3& before, const Vec3& trial, const Vec3& now, double k) {
     return k > 0 ? 0.5 * (before + now).dot(trial - now) / k : 0.0;
   }
-  /// How far the gap grew since the bond's law last ran: from the gaps, so that a pair that turns keeps its force. A new
-  /// bond knows no gap yet.
+  /// How far the gap grew since the bond's law last ran: from the gaps, so that a pair that turns keeps its force. A
+  /// new bond knows no gap yet.
   SCREE_INLINE static double opened_since(const Contact& c, double mode, double gap_before) {
     return mode == bond_new ? c.opening() * c.dt : c.gap - gap_before;
   }

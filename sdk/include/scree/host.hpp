@@ -4,8 +4,8 @@
 #include <scree/abi.h>
 #include <scree/math.hpp>
 
-#include <span>
 #include <cstddef>
+#include <span>
 #include <stdexcept>
 #include <string>
 

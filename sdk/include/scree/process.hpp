@@ -21,6 +21,8 @@
 ///     static constexpr Effect effect = Effect::adds_force;     // before all that scale
 ///     static constexpr Effect effect = Effect::scales_force;   // after all that add
 /// `static constexpr uint32_t every = 10;` calls `step` every tenth cycle only.
+/// `static constexpr bool traces_energy = true;` makes the program keep an energy balance, which scenes and processes
+/// read as `energy.body`, `energy.residual` ... (docs/scenes.md); without such a process it costs nothing.
 #include <scree/abi.h>
 #include <scree/columns.hpp>
 #include <scree/host.hpp>
@@ -144,6 +146,8 @@ constexpr uint32_t flags() {
   uint32_t flags = 0;
   if constexpr (requires { T::effect; }) flags |= static_cast<uint32_t>(T::effect);
   if constexpr (requires(const T& t) { t.damping(); }) flags |= SCREE_LOCAL_DAMPING;
+  if constexpr (requires { T::traces_energy; })
+    if (T::traces_energy) flags |= SCREE_TRACES_ENERGY;
   return flags;
 }
 
@@ -155,7 +159,7 @@ constexpr bool writes_force() {
 
 template <class T>
 scree_process make_table() {
-  static_assert(HasBall<T> || HasRotation<T> || HasStep<T>,
+  static_assert(HasBall<T> || HasRotation<T> || HasStep<T> || (flags<T>() & SCREE_TRACES_ENERGY) != 0,
                 "scree: a process needs 'void ball(...) const', 'void rotation(...) const' or 'void step(Step&)'");
   static_assert(!writes_force<T>() || (flags<T>() & (SCREE_ADDS_FORCE | SCREE_SCALES_FORCE)) != 0,
                 "scree: a process that writes Force or Moment says 'static constexpr Effect effect = "
