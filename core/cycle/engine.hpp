@@ -13,6 +13,7 @@
 #include "core/cycle/observation.hpp"
 #include "core/cycle/process.hpp"
 #include "core/cycle/step_control.hpp"
+#include "core/cycle/step_schedule.hpp"
 #include "core/world/balls.hpp"
 #include "core/world/cell.hpp"
 #include "core/world/wall.hpp"
@@ -101,6 +102,7 @@ class Engine {
     double ball_travel, wall_travel, skin, extent;
     uint8_t forces_current;
     uint64_t rebuilds, contact_updates;
+    StepSchedule::State schedule;
   };
   Loop loop() const;
   void restore(const Loop& loop);
@@ -109,6 +111,8 @@ class Engine {
  private:
   void rebuild();
   void choose_step();
+  StepBound estimate();
+  double fastest_ball() const;
   void check_cell() const;
   double exact_travel();
   void drift_walls();
@@ -130,6 +134,7 @@ class Engine {
   std::vector<MotionResult> motion_;  ///< of the last pass, by block
   std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
+  StepSchedule schedule_;
   Census counted_;  ///< by the last prepare()
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;

@@ -210,12 +210,7 @@ Explanation::StageLength length_of(const Stage& stage, double dt) {
 std::optional<Explanation::Step> step_of(const Engine& engine) {
   if (engine.step.step() == 0) return std::nullopt;
   const StepBound& bound = engine.step.bound();
-  std::string governs;
-  if (bound.step > 0 && bound.ball != 0)
-    governs = bound.term + " of ball " + std::to_string(bound.ball);
-  else if (bound.step > 0)
-    governs = bound.term;
-  return Explanation::Step{engine.step.step(), bound.step, engine.step.automatic(), governs};
+  return Explanation::Step{engine.step.step(), bound.step, engine.step.automatic(), bound.text()};
 }
 
 void edit_until_first_run(Simulation& simulation) {
