@@ -1,0 +1,141 @@
+// Case 64 of docs/stability.md: the certified step of random small networks against the eigenvalues of their stiffness
+// matrix. `./dev verify stability` looks at 10 000 of them, every change at 200.
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "core/contact/network_bound.hpp"
+#include "stability/networks.hpp"
+#include "support/catch.hpp"
+
+using namespace scree::core;
+
+namespace {
+
+void look_at(uint64_t count, const std::string& name) {
+  lab::Lab here;
+  std::vector<double> ratios;
+  const auto begin = std::chrono::steady_clock::now();
+  for (uint64_t index = 0; index < count; ++index) {
+    networks::Maker maker(index, index % 2 == 0 ? 12 : 1);
+    const networks::Spec spec = maker.make(here.folder());
+    const auto simulation = here.make(spec.scene);
+    simulation->engine.forces();
+    Engine& engine = simulation->engine;
+    NetworkQuery query;
+    query.links.margin = 1e-8;
+    query.sweeps = 20;
+    const double certified =
+        network_bound(engine.contacts, engine.balls, engine.walls, engine.cell, query, engine.team).network.step;
+    CHECK(engine.step.bound().step <= certified);
+    const double limit = networks::true_limit(*simulation, 1e-3 * certified);
+    ratios.push_back(certified / limit);
+    INFO("network " << index << ": certified " << certified << " s, true " << limit << " s\n" << spec.scene);
+    REQUIRE(certified <= limit * (1 + 5e-6));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::sort(ratios.begin(), ratios.end());
+  const double median = ratios[ratios.size() / 2];
+  CHECK(median >= 0.95);
+  CHECK(ratios.front() > 0.7);
+  lab::measured(name, std::to_string(count) + " networks: certified over true step from " +
+                          lab::number(ratios.front()) + ", median " + lab::number(median) + ", to " +
+                          lab::number(ratios.back()) + "; " + lab::number(seconds) + " s");
+}
+
+}  // namespace
+
+TEST_CASE("64 OK: the step of small networks is certified and sharp") { look_at(200, "64"); }
+
+TEST_CASE("64 OK: 10 000 small networks", "[.][verify]") { look_at(10000, "64 verify"); }
+
+TEST_CASE("step OK: a random packing gets more than four fifths of its critical step") {
+  lab::Lab here;
+  // A reference gap joins neighbours that do not touch, as bonds do.
+  const auto simulation = here.make(R"(scree: 1
+seed: 3
+cell: {low: [0, 0, 0], high: [0.105, 0.105, 0.105], periodic: [x, y, z]}
+balls:
+  sand: {generator: random, box: [[0, 0, 0], [0.105, 0.105, 0.105]], radius: [3 mm, 4.5 mm], count: 2000, density: 2600}
+contacts:
+  - {name: grains, between: [sand, sand], model: linear, kn: 2e5, ks: 8e4, fric: 10, rgap: 1.5 mm}
+stages:
+  - go: [cycle: 1]
+)");
+  Engine& engine = simulation->engine;
+  engine.forces();
+  NetworkQuery query;
+  query.links.margin = 1e-6;
+  const Links all = gather_links(engine.contacts, engine.balls, engine.walls, engine.cell, query.links, 0,
+                                 engine.balls.size(), engine.team);
+  REQUIRE(all.links.size() > 4000);
+  const double coordination = 2.0 * static_cast<double>(all.links.size()) / 2000;
+  // Powers of the network's own operator: the quotient lies below its largest eigenvalue, so the step above its limit.
+  const std::size_t n = engine.balls.size();
+  std::vector<Eigen::Vector3d> u(n), w(n), fu(n), fw(n);
+  const Random random(1, "start");
+  for (std::size_t k = 0; k < n; ++k)
+    for (int c = 0; c < 3; ++c) {
+      u[k][c] = random.normal(k, static_cast<uint64_t>(c));
+      w[k][c] = random.normal(k, static_cast<uint64_t>(3 + c));
+    }
+  const double *mass = engine.balls[Column::mass], *radius = engine.balls[Column::radius];
+  double largest = 0;
+  for (int again = 0; again < 400; ++again) {
+    std::fill(fu.begin(), fu.end(), Eigen::Vector3d::Zero());
+    std::fill(fw.begin(), fw.end(), Eigen::Vector3d::Zero());
+    double above = 0, below = 0;
+    for (const Link& link : all.links) {
+      const std::size_t i = link.row[0], j = link.row[1];
+      const Eigen::Vector3d normal(link.normal[0], link.normal[1], link.normal[2]);
+      const Eigen::Vector3d slip = u[j] - u[i] - (link.arm[0] * w[i] + link.arm[1] * w[j]).cross(normal);
+      const double along = slip.dot(normal);
+      const Eigen::Vector3d force = link.kn * along * normal + link.ks * (slip - along * normal);
+      fu[i] -= force;
+      fu[j] += force;
+      const Eigen::Vector3d moment = normal.cross(force);
+      fw[i] -= link.arm[0] * moment;
+      fw[j] -= link.arm[1] * moment;
+    }
+    double size = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double inertia = 0.4 * mass[k] * radius[k] * radius[k];
+      above += u[k].dot(fu[k]) + w[k].dot(fw[k]);
+      below += mass[k] * u[k].squaredNorm() + inertia * w[k].squaredNorm();
+      u[k] = fu[k] / mass[k];
+      w[k] = fw[k] / inertia;
+      size = std::max({size, u[k].norm(), radius[k] * w[k].norm()});
+    }
+    largest = above / below;
+    for (std::size_t k = 0; k < n; ++k) {
+      u[k] /= size;
+      w[k] /= size;
+    }
+  }
+  const double limit = 2 / std::sqrt(largest);
+  std::string shares;
+  double most = 0;
+  for (const unsigned sweeps : {0u, 1u, 2u, 4u, 9u, 19u}) {
+    query.sweeps = sweeps;
+    const auto begin = std::chrono::steady_clock::now();
+    const NetworkBound found =
+        network_bound(engine.contacts, engine.balls, engine.walls, engine.cell, query, engine.team);
+    const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    CHECK(found.network.step <= limit);
+    most = std::max(most, found.network.step);
+    shares += " " + lab::number(found.network.step / limit) + " (" + std::to_string(found.sweeps) + ", " +
+              lab::number(ms) + " ms)";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  for (int k = 0; k < 20; ++k) {
+    engine.forces_outdated();
+    engine.forces();
+  }
+  const double pass = 50 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  CHECK(most >= 0.92 * limit);
+  CHECK(engine.clock.dt >= 0.8 * limit);
+  lab::measured("step", "2000 balls, " + lab::number(coordination) +
+                            " contacts each: certified over true step (sweeps, time)" + shares +
+                            "; a force pass takes " + lab::number(pass) + " ms; used " +
+                            lab::number(engine.clock.dt / limit) + " of the true step");
+}
