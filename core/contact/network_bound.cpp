@@ -93,6 +93,7 @@ void Network::each_portion(F f) {
       out_.impact = smaller(out_.impact, portion->found.impact);
       out_.kinematic = smaller(out_.kinematic, portion->found.kinematic);
       dashpots_ = dashpots_ || portion->found.dashpots;
+      out_.links += portion->found.links.size();
     }
     f(*portion);
     if (single) kept_ = std::move(portion);

@@ -14,6 +14,7 @@ struct NetworkBound {
   StepBound network;            ///< "network", or "damping" where dashpots take more than a tenth of the step
   StepBound impact, kinematic;  ///< see Links
   unsigned sweeps = 0;          ///< how many were made
+  std::size_t links = 0;        ///< contacts that were looked at
 };
 
 /// Certified limit of the step for the contacts of the scene. For any s > 0 the energy of a contact obeys

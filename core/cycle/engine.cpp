@@ -70,6 +70,7 @@ void Engine::check_count() const {
 }
 
 void Engine::prepare() {
+  frequency_.forget();
   counted_ = census();
   const bool spins = contacts.book.spins() || std::any_of(processes.begin(), processes.end(), [](const Process& p) {
                        return p.needs(SCREE_SPIN) || p.needs(SCREE_MOMENT);
@@ -129,8 +130,9 @@ void Engine::choose_step() {
     step.take(estimate(), clock.cycle);
     const StepBound& bound = step.bound();
     if (!step.automatic() && !unsafe && bound.step > 0 && *step.fixed > bound.step)
-      throw Refusal(Exit::scene, "the step of " + number(*step.fixed) + " s is above the stable limit of " +
-                                     number(bound.step) + " s (" + bound.text() + "): lower 'timestep' to at most " +
+      throw Refusal(Exit::scene, (step_place.empty() ? "" : step_place + ": error: ") + "the step of " +
+                                     number(*step.fixed) + " s is above the stable limit of " + number(bound.step) +
+                                     " s (" + bound.text() + "): lower 'timestep' to at most " +
                                      number(step.allowed()) +
                                      " s, leave it out for the automatic step, or say 'unsafe: true'");
     if (step.step() == 0 && balls.size() > 0) refuse_without_step();
@@ -294,6 +296,8 @@ void Engine::run_model_processes() {
 void Engine::advance() {
   forces();
   if (clock.dt == 0) refuse_without_step();
+  if (frequency_.noted()) watch_frequency();
+  if (clock.cycle % monitor_every == 0) watch_honesty();
   const MotionInput input = motion_input();
   Slices& slices = contacts.slices();
   const std::size_t words = input.sum_words;
@@ -314,6 +318,7 @@ void Engine::advance() {
         for (uint32_t k = 0; k < process->table->sums; ++k) const_cast<Process*>(process)->sums[k] += *sums++;
   }
   if (!finite) stop_not_finite();
+  if (clock.cycle % monitor_every == 0 || frequency_.streak() > 0) frequency_.note(balls, contacts.slices(), team);
   drift_walls();
   ball_travel_ += fastest * clock.dt;
   schedule_.moved(fastest * clock.dt, 0);

@@ -9,6 +9,7 @@
 #include "core/base/threads.hpp"
 #include "core/contact/contacts.hpp"
 #include "core/contact/step_bound.hpp"
+#include "core/cycle/monitors.hpp"
 #include "core/cycle/motion.hpp"
 #include "core/cycle/observation.hpp"
 #include "core/cycle/process.hpp"
@@ -68,6 +69,7 @@ class Engine {
   double overlap_warning = 0.05;
   double wanted_skin = 0;      ///< m; 0: chosen from the radii
   bool unsafe = false;         ///< the user accepts a step above the bound
+  std::string step_place;      ///< "file:line:column" of the user's own step; "" when there is none
   double idle_step = 0;        ///< s; what an automatic step is while there is no ball, where nothing limits it
   bool sums_wanted = false;    ///< forces() also sums contact force sizes (unbalanced ratio)
   bool report_wanted = false;  ///< forces() also keeps every contact's force
@@ -94,6 +96,8 @@ class Engine {
   uint64_t contact_updates() const { return contact_updates_; }
   bool forces_current() const { return forces_current_ && contacts.built(); }
   double local_damping() const;
+  /// What the last estimate of the step took, in words.
+  const std::string& estimated() const { return estimated_; }
   double largest_overlap() const;  ///< of the smaller radius, over active contacts, now
   uint64_t state_hash() const;     ///< over positions, velocities, spins and contact state in id order
 
@@ -112,6 +116,8 @@ class Engine {
   void rebuild();
   void choose_step();
   StepBound estimate();
+  void watch_frequency();
+  void watch_honesty();
   double fastest_ball() const;
   void check_cell() const;
   double exact_travel();
@@ -135,6 +141,9 @@ class Engine {
   std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
   StepSchedule schedule_;
+  std::string estimated_;
+  FrequencyWatch frequency_;
+  HonestyWatch honesty_;
   Census counted_;  ///< by the last prepare()
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;

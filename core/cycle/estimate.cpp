@@ -40,6 +40,10 @@ StepBound Engine::estimate() {
   }
   if (few) query.sweeps = std::min(query.sweeps, 3u);
   const NetworkBound found = network_bound(contacts, balls, walls, cell, query, team);
+  estimated_ = found.links == 0 ? "no contact is within reach: nothing is estimated"
+                                : std::to_string(found.links) + " contacts, " + std::to_string(found.sweeps) +
+                                      (found.sweeps == 1 ? " sweep" : " sweeps") +
+                                      (few ? ", no more as there are fewer than two contacts a ball" : "");
   // Where balls meet rarely, what they could meet keeps the step steady between two meetings.
   const bool wide = few || !step.automatic();
   const StepBound& stable = wide || found.network.step == 0 ? smaller(found.network, possible_) : found.network;

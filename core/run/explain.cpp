@@ -115,7 +115,9 @@ std::vector<Explanation::Phase> phases(const Simulation& simulation) {
   std::string detect = "nothing: the scene has no ball";
   if (engine.balls.size() > 0)
     detect = fmt::format("when the skin of {:.6g} m is used up: order of rows, hash, lists, step", engine.skin());
-  return {{"detect", {detect}},
+  std::vector<std::string> detection{detect};
+  if (engine.step.automatic() && !engine.estimated().empty()) detection.push_back("step: " + engine.estimated());
+  return {{"detect", detection},
           {"contact laws", law_steps(engine)},
           {"wall contacts", wall_steps(engine)},
           {"motion", motion_steps(engine)},
