@@ -1,7 +1,6 @@
 #include "core/contact/impact_limit.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace scree::core {
 
@@ -18,10 +17,7 @@ bool advance(Way& way, double depth, double stiffness, double energy) {
   const double force = way.force + 0.5 * h * (way.stiffness + stiffness);
   const double work = way.work + 0.5 * h * (way.force + force);
   if (work >= energy && work > way.work) {
-    // Work grows like a power of depth between two points, and so does the stiffness.
-    const double rest = way.work > 0 ? std::log(energy / way.work) / std::log(work / way.work) : 1.0;
-    const double least = std::max(way.stiffness, 1e-3 * stiffness);
-    way.stiffness = stiffness > least ? least * std::pow(stiffness / least, rest) : std::max(least, stiffness);
+    way.stiffness += (stiffness - way.stiffness) * (energy - way.work) / (work - way.work);
     return true;
   }
   way = {depth, stiffness, force, work};
@@ -40,7 +36,7 @@ void peak_stiffness(const BoundRule& rule, uint32_t n, const double* v, const Ta
   Tangents then;
   // From 1e-9 of the radius to all of it: four points to a factor of two.
   constexpr int points = 120;
-  const double factor = std::pow(2.0, 0.25);
+  constexpr double factor = 1.189207115002721;
   double share = 1e-9;
   for (int p = 0; p <= points; ++p, share *= factor) {
     bool all = true;

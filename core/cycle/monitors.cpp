@@ -33,6 +33,7 @@ FrequencyWatch::Sums FrequencyWatch::sums(const Balls& balls, Slices& slices, Te
   for (std::size_t c = 0; c < words; ++c)
     v[c] = balls[static_cast<Column>(static_cast<std::size_t>(c < 3 ? Column::vx : Column::wx) + c % 3)];
   const double *mass = balls[Column::mass], *radius = balls[Column::radius];
+  const uint8_t* fixed = balls.fixed();
   team.each_block(slices.blocks(), [&](std::size_t block) {
     slices.fold(block);
     Sums& s = parts[block];
@@ -41,6 +42,7 @@ FrequencyWatch::Sums FrequencyWatch::sums(const Balls& balls, Slices& slices, Te
       const double* force = slices.record(row);
       double square[2] = {0, 0};
       for (std::size_t c = 0; c < words; ++c) {
+        if (fixed != nullptr && (fixed[row] >> c & 1u) != 0) continue;  // it moves whatever the force
         s.power += v[c][row] * force[c];
         square[c / 3] += v[c][row] * v[c][row];
       }

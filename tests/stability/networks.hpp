@@ -2,10 +2,12 @@
 // Random networks of few balls, and their critical step without any knowledge of how the bound is made: the stiffness
 // matrix is read off the forces after one cycle of a small prescribed motion.
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "core/base/philox.hpp"
+#include "core/contact/links.hpp"
 #include "stability/lab.hpp"
 
 namespace networks {
@@ -151,6 +153,61 @@ inline double true_limit(Simulation& simulation, double step) {
   const Eigen::MatrixXd even = 0.5 * (k + k.transpose());
   return 2 / std::sqrt(
                  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(even, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
+
+/// Translation and rotation of all balls, or what resists them: forces and moments.
+struct Motion {
+  std::vector<Eigen::Vector3d> u, w;
+  explicit Motion(std::size_t n) : u(n, Eigen::Vector3d::Zero()), w(n, Eigen::Vector3d::Zero()) {}
+};
+
+inline Motion resistance(const Links& all, const Motion& m) {
+  Motion f(m.u.size());
+  for (const Link& link : all.links) {
+    const std::size_t i = link.row[0], j = link.row[1];
+    const Eigen::Vector3d normal(link.normal[0], link.normal[1], link.normal[2]);
+    const Eigen::Vector3d slip = m.u[j] - m.u[i] - (link.arm[0] * m.w[i] + link.arm[1] * m.w[j]).cross(normal);
+    const double along = slip.dot(normal);
+    const Eigen::Vector3d force = link.kn * along * normal + link.ks * (slip - along * normal);
+    f.u[i] -= force;
+    f.u[j] += force;
+    f.w[i] -= link.arm[0] * normal.cross(force);
+    f.w[j] -= link.arm[1] * normal.cross(force);
+  }
+  return f;
+}
+
+/// Critical step of links between balls by powers of their operator: its quotient lies below the largest eigenvalue, so
+/// the step lies above the critical one, and nears it.
+inline double limit_by_powers(const Balls& balls, const Links& all) {
+  const std::size_t n = balls.size();
+  Motion m(n);
+  const Random random(1, "start");
+  for (std::size_t k = 0; k < n; ++k)
+    for (int c = 0; c < 3; ++c) {
+      m.u[k][c] = random.normal(k, static_cast<uint64_t>(c));
+      m.w[k][c] = random.normal(k, static_cast<uint64_t>(3 + c));
+    }
+  const double *mass = balls[Column::mass], *radius = balls[Column::radius];
+  double largest = 0;
+  for (int again = 0; again < 400; ++again) {
+    Motion f = resistance(all, m);
+    double above = 0, below = 0, size = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      const double inertia = 0.4 * mass[k] * radius[k] * radius[k];
+      above += m.u[k].dot(f.u[k]) + m.w[k].dot(f.w[k]);
+      below += mass[k] * m.u[k].squaredNorm() + inertia * m.w[k].squaredNorm();
+      f.u[k] /= mass[k];
+      f.w[k] /= inertia;
+      size = std::max({size, f.u[k].norm(), radius[k] * f.w[k].norm()});
+    }
+    largest = above / below;
+    for (std::size_t k = 0; k < n; ++k) {
+      m.u[k] = f.u[k] / size;
+      m.w[k] = f.w[k] / size;
+    }
+  }
+  return 2 / std::sqrt(largest);
 }
 
 }  // namespace networks

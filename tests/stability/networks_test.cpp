@@ -71,49 +71,7 @@ stages:
                                  engine.balls.size(), engine.team);
   REQUIRE(all.links.size() > 4000);
   const double coordination = 2.0 * static_cast<double>(all.links.size()) / 2000;
-  // Powers of the network's own operator: the quotient lies below its largest eigenvalue, so the step above its limit.
-  const std::size_t n = engine.balls.size();
-  std::vector<Eigen::Vector3d> u(n), w(n), fu(n), fw(n);
-  const Random random(1, "start");
-  for (std::size_t k = 0; k < n; ++k)
-    for (int c = 0; c < 3; ++c) {
-      u[k][c] = random.normal(k, static_cast<uint64_t>(c));
-      w[k][c] = random.normal(k, static_cast<uint64_t>(3 + c));
-    }
-  const double *mass = engine.balls[Column::mass], *radius = engine.balls[Column::radius];
-  double largest = 0;
-  for (int again = 0; again < 400; ++again) {
-    std::fill(fu.begin(), fu.end(), Eigen::Vector3d::Zero());
-    std::fill(fw.begin(), fw.end(), Eigen::Vector3d::Zero());
-    double above = 0, below = 0;
-    for (const Link& link : all.links) {
-      const std::size_t i = link.row[0], j = link.row[1];
-      const Eigen::Vector3d normal(link.normal[0], link.normal[1], link.normal[2]);
-      const Eigen::Vector3d slip = u[j] - u[i] - (link.arm[0] * w[i] + link.arm[1] * w[j]).cross(normal);
-      const double along = slip.dot(normal);
-      const Eigen::Vector3d force = link.kn * along * normal + link.ks * (slip - along * normal);
-      fu[i] -= force;
-      fu[j] += force;
-      const Eigen::Vector3d moment = normal.cross(force);
-      fw[i] -= link.arm[0] * moment;
-      fw[j] -= link.arm[1] * moment;
-    }
-    double size = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      const double inertia = 0.4 * mass[k] * radius[k] * radius[k];
-      above += u[k].dot(fu[k]) + w[k].dot(fw[k]);
-      below += mass[k] * u[k].squaredNorm() + inertia * w[k].squaredNorm();
-      u[k] = fu[k] / mass[k];
-      w[k] = fw[k] / inertia;
-      size = std::max({size, u[k].norm(), radius[k] * w[k].norm()});
-    }
-    largest = above / below;
-    for (std::size_t k = 0; k < n; ++k) {
-      u[k] /= size;
-      w[k] /= size;
-    }
-  }
-  const double limit = 2 / std::sqrt(largest);
+  const double limit = networks::limit_by_powers(engine.balls, all);
   std::string shares;
   double most = 0;
   for (const unsigned sweeps : {0u, 1u, 2u, 4u, 9u, 19u}) {
