@@ -63,7 +63,7 @@ Json set(const Components& components) {
   }
   if (!keys.empty()) paths["^processes\\." + name + "\\.(" + keys + ")$"] = Json::object();
   return told(Json{{"type", Json::array({"object", "null"})},
-                   {"properties", {{"timestep", told(above_zero(), "s, or automatic")}}},
+                   {"properties", {{"timestep", told(above_zero(), "s, automatic, or accurate")}}},
                    {"patternProperties", std::move(paths)},
                    {"additionalProperties", false}},
               "path: value, as in {contacts.grains.fric: 0.5, walls.lid.velocity: [0, 0, 0]}");

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/base/crash_note.hpp"
+#include "core/contact/network_bound.hpp"
+#include "core/contact/possible_pairs.hpp"
 
 namespace scree::core {
 
@@ -81,6 +83,7 @@ void Engine::check_count() const {
 }
 
 void Engine::prepare() {
+  frequency_.forget();
   counted_ = census();
   const bool spins = contacts.book.spins() || std::any_of(processes.begin(), processes.end(), [](const Process& p) {
                        return p.needs(SCREE_SPIN) || p.needs(SCREE_MOMENT);
@@ -140,12 +143,13 @@ void Engine::rebuild() {
 
 void Engine::choose_step() {
   if (step.automatic() || clock.dt == 0) {
-    const StepBound bound = smaller(step_bound(contacts, balls, walls, cell, local_damping()), possible_);
-    step.take(bound, clock.cycle);
+    step.take(estimate(), clock.cycle);
+    const StepBound& bound = step.bound();
     if (!step.automatic() && !unsafe && bound.step > 0 && *step.fixed > bound.step)
-      throw Refusal(Exit::scene, "the step of " + number(*step.fixed) + " s is above the stable limit of " +
-                                     number(bound.step) + " s (ball " + std::to_string(bound.ball) + ", " + bound.term +
-                                     "): lower 'timestep' to at most " + number(step.allowed()) +
+      throw Refusal(Exit::scene, (step_place.empty() ? "" : step_place + ": error: ") + "the step of " +
+                                     number(*step.fixed) + " s is above the stable limit of " + number(bound.step) +
+                                     " s (" + bound.text() + "): lower 'timestep' to at most " +
+                                     number(step.allowed()) +
                                      " s, leave it out for the automatic step, or say 'unsafe: true'");
     if (step.step() == 0 && balls.size() > 0) refuse_without_step();
   }
@@ -179,9 +183,11 @@ double Engine::exact_travel() {
 void Engine::detect() {
   if (!contacts.built()) return rebuild();
   const auto used_up = [&] { return 2 * ball_travel_ > skin_ || ball_travel_ + wall_travel_ > skin_; };
-  if (!used_up()) return;
-  ball_travel_ = exact_travel();
-  if (used_up()) rebuild();
+  if (used_up()) {
+    ball_travel_ = exact_travel();
+    if (used_up()) return rebuild();
+  }
+  if (step.automatic() && schedule_.due(clock.cycle)) choose_step();
 }
 
 void Engine::forces() {
@@ -321,6 +327,7 @@ void Engine::drift_walls() {
     wall.drift(clock.dt);
   }
   wall_travel_ += most;
+  schedule_.moved(0, most);
 }
 
 void Engine::run_model_processes() {
@@ -356,6 +363,8 @@ void Engine::run_model_processes() {
 void Engine::advance() {
   forces();
   if (clock.dt == 0) refuse_without_step();
+  if (frequency_.noted()) watch_frequency();
+  if (clock.cycle % monitor_every == 0) watch_honesty();
   const MotionInput input = motion_input();
   Slices& slices = contacts.slices();
   const std::size_t words = input.sum_words;
@@ -386,8 +395,10 @@ void Engine::advance() {
       wall_motion_.push_back(
           {wall.velocity[0], wall.velocity[1], wall.velocity[2], wall.spin[0], wall.spin[1], wall.spin[2]});
   }
+  if (clock.cycle % monitor_every == 0 || frequency_.streak() > 0) frequency_.note(balls, contacts.slices(), team);
   drift_walls();
   ball_travel_ += fastest * clock.dt;
+  schedule_.moved(fastest * clock.dt, 0);
   clock.dt_back = clock.dt_law = clock.dt;
   ++clock.cycle;
   forces_current_ = false;
@@ -441,7 +452,8 @@ Engine::Loop Engine::loop() const {
           wall_motion_,
           static_cast<uint8_t>(forces_current()),
           rebuilds_,
-          contact_updates_};
+          contact_updates_,
+          schedule_.state()};
 }
 
 void Engine::restore(const Loop& loop) {
@@ -454,6 +466,7 @@ void Engine::restore(const Loop& loop) {
   forces_current_ = loop.forces_current != 0;
   rebuilds_ = loop.rebuilds;
   contact_updates_ = loop.contact_updates;
+  schedule_.restore(loop.schedule);
 }
 
 }  // namespace scree::core

@@ -10,10 +10,12 @@
 #include "core/contact/contacts.hpp"
 #include "core/contact/step_bound.hpp"
 #include "core/cycle/energy_ledger.hpp"
+#include "core/cycle/monitors.hpp"
 #include "core/cycle/motion.hpp"
 #include "core/cycle/observation.hpp"
 #include "core/cycle/process.hpp"
 #include "core/cycle/step_control.hpp"
+#include "core/cycle/step_schedule.hpp"
 #include "core/world/balls.hpp"
 #include "core/world/cell.hpp"
 #include "core/world/wall.hpp"
@@ -76,6 +78,7 @@ class Engine {
   double overlap_warning = 0.05;
   double wanted_skin = 0;          ///< m; 0: chosen from the radii
   bool unsafe = false;             ///< the user accepts a step above the bound
+  std::string step_place;          ///< "file:line:column" of the user's own step; "" when there is none
   double idle_step = 0;            ///< s; what an automatic step is while there is no ball, where nothing limits it
   bool sums_wanted = false;        ///< forces() also sums contact force sizes (unbalanced ratio)
   bool report_wanted = false;      ///< forces() also keeps every contact's force
@@ -109,6 +112,8 @@ class Engine {
   uint64_t contact_updates() const { return contact_updates_; }
   bool forces_current() const { return forces_current_ && contacts.built(); }
   double local_damping() const;
+  /// What the last estimate of the step took, in words.
+  const std::string& estimated() const { return estimated_; }
   double largest_overlap() const;  ///< of the smaller radius, over active contacts, now
   uint64_t state_hash() const;     ///< over positions, velocities, spins and contact state in id order
 
@@ -119,6 +124,7 @@ class Engine {
     std::vector<std::array<double, 6>> wall_motion;  ///< of the last drift, while energy is traced
     uint8_t forces_current;
     uint64_t rebuilds, contact_updates;
+    StepSchedule::State schedule;
   };
   Loop loop() const;
   void restore(const Loop& loop);
@@ -128,6 +134,10 @@ class Engine {
   void rebuild();
   void evaluate_forces();
   void choose_step();
+  StepBound estimate();
+  void watch_frequency();
+  void watch_honesty();
+  double fastest_ball() const;
   void check_cell() const;
   void check_energies() const;
   double exact_travel();
@@ -151,6 +161,10 @@ class Engine {
   std::vector<MotionResult> motion_;  ///< of the last pass, by block
   std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
+  StepSchedule schedule_;
+  std::string estimated_;
+  FrequencyWatch frequency_;
+  HonestyWatch honesty_;
   Census counted_;  ///< by the last prepare()
   double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;

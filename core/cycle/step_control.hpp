@@ -10,11 +10,12 @@ namespace scree::core {
 /// powers of two. It drops at once and rises when the bound has allowed more for long, so it is piecewise constant.
 class StepControl {
  public:
-  static constexpr double safety = 0.8;      ///< of the local bound
+  static constexpr double safety = 0.95;     ///< of the certified limit
   static constexpr double rise = 1.1;        ///< how much more the bound must allow
   static constexpr uint64_t patience = 500;  ///< cycles for which it must
 
   std::optional<double> fixed;  ///< the user's own step, s
+  bool accurate = false;        ///< collisions get a tenth of a pair's limit, in dense scenes too
   /// A new bound was computed at this cycle.
   void take(const StepBound& bound, uint64_t cycle);
   double step() const { return fixed ? *fixed : step_; }

@@ -80,6 +80,8 @@ void Simulation::edit_set(const SetAction& action) {
     case SetAction::Target::timestep: {
       const double step = action.setting.value.numbers.at(0);
       engine.step.fixed = step > 0 ? std::optional<double>(step) : std::nullopt;
+      engine.step.accurate = step < 0;
+      engine.step_place = action.setting.place.text();
       engine.clock.change_step(step > 0 ? step : engine.clock.dt);
     }
   }

@@ -25,29 +25,32 @@ void save_step(const StepControl& step, ArchiveWriter& out) {
   const StepBound& bound = step.bound();
   Packer packer;
   packer.flag(step.fixed.has_value());
-  for (double value : {step.fixed.value_or(0), step.saved_step(), bound.step, bound.stiffness, bound.damping})
-    packer.f64(value);
+  packer.flag(step.accurate);
+  for (double value : {step.fixed.value_or(0), step.saved_step(), bound.step}) packer.f64(value);
   packer.u64(step.saved_since());
   packer.u64(bound.ball);
+  packer.u64(bound.other);
+  packer.text(bound.wall);
   packer.text(bound.term);
   out.put("step", packer.bytes());
 }
 
 void load_step(StepControl& step, const ArchiveReader& archive) {
   Unpacker in(archive, "step");
-  const bool fixed = in.flag();
+  const bool fixed = in.flag(), accurate = in.flag();
   const double value = in.f64(), saved = in.f64();
   StepBound bound;
   bound.step = in.f64();
-  bound.stiffness = in.f64();
-  bound.damping = in.f64();
   const uint64_t since = in.u64();
   bound.ball = in.u64();
+  bound.other = in.u64();
+  bound.wall = in.text();
   bound.term = in.text();
   in.finish();
   if (!(value >= 0 && saved >= 0 && std::isfinite(value) && std::isfinite(saved))) in.refuse("the step makes no sense");
   step.fixed.reset();
   if (fixed) step.fixed = value;
+  step.accurate = accurate;
   step.restore(bound, saved, since);
 }
 
@@ -57,6 +60,9 @@ void save_loop(const Engine::Loop& loop, ArchiveWriter& out) {
   packer.flag(loop.forces_current != 0);
   packer.u64(loop.rebuilds);
   packer.u64(loop.contact_updates);
+  for (double value : {loop.schedule.margin, loop.schedule.balls, loop.schedule.walls}) packer.f64(value);
+  packer.u64(loop.schedule.last);
+  packer.flag(loop.schedule.any != 0);
   out.put("loop", packer.bytes());
 }
 
@@ -94,6 +100,12 @@ Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
   loop.forces_current = in.flag();
   loop.rebuilds = in.u64();
   loop.contact_updates = in.u64();
+  for (double* value : {&loop.schedule.margin, &loop.schedule.balls, &loop.schedule.walls}) {
+    *value = in.f64();
+    if (!(*value >= 0 && std::isfinite(*value))) in.refuse("a length is not a finite number of at least 0");
+  }
+  loop.schedule.last = in.u64();
+  loop.schedule.any = in.flag();
   in.finish();
   if (loop.forces_current != 0 && !built) in.refuse("forces without lists");
   return loop;

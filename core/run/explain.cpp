@@ -115,7 +115,9 @@ std::vector<Explanation::Phase> phases(const Simulation& simulation) {
   std::string detect = "nothing: the scene has no ball";
   if (engine.balls.size() > 0)
     detect = fmt::format("when the skin of {:.6g} m is used up: order of rows, hash, lists, step", engine.skin());
-  return {{"detect", {detect}},
+  std::vector<std::string> detection{detect};
+  if (engine.step.automatic() && !engine.estimated().empty()) detection.push_back("step: " + engine.estimated());
+  return {{"detect", detection},
           {"contact laws", law_steps(engine)},
           {"wall contacts", wall_steps(engine)},
           {"motion", motion_steps(engine)},
@@ -216,12 +218,7 @@ Explanation::StageLength length_of(const Stage& stage, double dt) {
 std::optional<Explanation::Step> step_of(const Engine& engine) {
   if (engine.step.step() == 0) return std::nullopt;
   const StepBound& bound = engine.step.bound();
-  std::string governs;
-  if (bound.step > 0 && bound.ball != 0)
-    governs = bound.term + " of ball " + std::to_string(bound.ball);
-  else if (bound.step > 0)
-    governs = bound.term;
-  return Explanation::Step{engine.step.step(), bound.step, engine.step.automatic(), governs};
+  return Explanation::Step{engine.step.step(), bound.step, engine.step.automatic(), bound.text()};
 }
 
 void edit_until_first_run(Simulation& simulation) {

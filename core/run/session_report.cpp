@@ -76,7 +76,7 @@ Summary Session::summary() const {
     const StepBound& bound = engine.step.bound();
     if (bound.step > 0) {
       step.certified = bound.step;
-      step.governed_by = engine.step.automatic() ? bound.term + " of ball " + std::to_string(bound.ball) : "the scene";
+      step.governed_by = engine.step.automatic() ? bound.text() : "the scene";
     }
     s.timestep = step;
   }

@@ -38,6 +38,8 @@ Simulation::Simulation(Scene given, Catalogue& plugins, unsigned threads, int is
   engine.wanted_skin = scene.skin.value_or(0);
   engine.unsafe = scene.unsafe;
   engine.step.fixed = scene.timestep;
+  engine.step.accurate = scene.accurate;
+  if (scene.timestep) engine.step_place = scene.timestep_place.text();
   rules = scene.contacts;
   for (std::size_t k = 0; k < rules.size(); ++k) precedence.push_back(static_cast<uint16_t>(k));
 }

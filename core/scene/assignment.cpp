@@ -47,8 +47,9 @@ class Assignment {
   std::optional<SetAction> timestep() {
     action_.target = SetAction::Target::timestep;
     action_.key = "timestep";
-    const bool automatic = node_.is_scalar() && node_.text == "automatic";
-    const auto value = automatic ? std::optional<double>(0.0) : read_plain(node_, {"timestep", "s"}, context_);
+    const bool automatic = node_.is_scalar() && (node_.text == "automatic" || node_.text == "accurate");
+    const auto value = automatic ? std::optional<double>(node_.text == "accurate" ? -1.0 : 0.0)
+                                 : read_plain(node_, {"timestep", "s"}, context_);
     if (!value) return std::nullopt;
     if (!automatic && !(*value > 0)) {
       context_.report.error(node_.place(), "'timestep' must be above 0 s, not " + describe(node_));

@@ -135,10 +135,12 @@ void read_head(Mapping& top, Scene& scene, Context& context) {
   scene.vars = context.vars;
   if (const Node* cell = top.take("cell")) scene.cell = read_cell(*cell, context);
   const Node* step = top.node().find("timestep");
-  if (step && step->is_scalar() && step->text == "automatic")
+  if (step && step->is_scalar() && (step->text == "automatic" || step->text == "accurate")) {
+    scene.accurate = step->text == "accurate";
     top.take("timestep");
-  else
+  } else {
     scene.timestep = read_positive(top, "timestep", "s", context, &scene.timestep_place);
+  }
   if (const Node* unsafe = top.take("unsafe")) scene.unsafe = read_bool(*unsafe, "unsafe", context).value_or(false);
   scene.skin = read_positive(top, "skin", "m", context);
   scene.overlap_limit = read_positive(top, "overlap_limit", "1", context).value_or(scene.overlap_limit);

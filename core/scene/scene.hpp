@@ -129,7 +129,7 @@ struct SetAction {
   std::string name;  ///< of the rule, wall, process, ball set or sub-group
   std::string key;   ///< property; walls: velocity, spin, position; balls: velocity, spin
   std::string unit;  ///< wall_contact: as for PieceProperty
-  Setting setting;   ///< of the component (rule, process), or a bare value; timestep 0: automatic again
+  Setting setting;   ///< of the component (rule, process), or a bare value; timestep 0: automatic again, -1: accurate
 };
 struct DeleteAction {
   std::string what;
@@ -205,6 +205,7 @@ struct Scene {
   std::optional<Cell> cell;
   std::optional<double> timestep;  ///< s; absent: automatic
   Place timestep_place;
+  bool accurate = false;  ///< automatic, with collisions resolved three times as finely
   bool unsafe = false;
   std::optional<double> skin;  ///< m; absent: chosen from the radii
   double overlap_limit = 0.5;  ///< of the smaller radius

@@ -3,7 +3,7 @@
 // w^2 = (10 Z/3) ks/m with Z neighbours, a pair 2 kn/m and 7 ks/m, a ball on a wall kn/m and 3.5 ks/m.
 #include <cmath>
 
-#include "core/contact/step_bound.hpp"
+#include "core/contact/network_bound.hpp"
 #include "stability/lab.hpp"
 #include "support/catch.hpp"
 
@@ -37,11 +37,15 @@ double bound(lab::Lab& here, const std::string& scene) {
   const auto simulation = here.make(scene);
   Engine& engine = simulation->engine;
   engine.forces();
+  NetworkQuery query;
+  query.links.margin = 1e-6;
+  query.sweeps = 20;
+  query.local_damping = engine.local_damping();
   const StepBound network =
-      step_bound(engine.contacts, engine.balls, engine.walls, engine.cell, engine.local_damping());
+      network_bound(engine.contacts, engine.balls, engine.walls, engine.cell, query, engine.team).network;
   CHECK(engine.step.bound().step <= network.step);
-  CHECK(engine.clock.dt <= 0.8 * network.step);
-  CHECK(engine.clock.dt > 0.8 * engine.step.bound().step * (1 - 1.0 / 32));
+  CHECK(engine.clock.dt <= 0.95 * network.step);
+  CHECK(engine.clock.dt > 0.95 * engine.step.bound().step * (1 - 1.0 / 32));
   return network.step / std::sqrt(mass / kn);
 }
 

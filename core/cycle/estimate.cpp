@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/network_bound.hpp"
+#include "core/cycle/engine.hpp"
+
+// The estimate that the step is taken from.
+
+namespace scree::core {
+
+namespace {
+
+constexpr double impact_share = 0.3, accurate_share = 0.1;  ///< of the limit of a pair that collides
+constexpr double birth_depth = 0.05;                        ///< of the smaller radius, in one cycle
+constexpr double few_contacts = 2;                          ///< per ball: below, collisions are what happens
+
+}  // namespace
+
+double Engine::fastest_ball() const {
+  const double *x = balls[Column::vx], *y = balls[Column::vy], *z = balls[Column::vz];
+  double most = 0;
+  for (std::size_t row = 0; row < balls.size(); ++row)
+    most = std::max(most, x[row] * x[row] + y[row] * y[row] + z[row] * z[row]);
+  return std::sqrt(most);
+}
+
+StepBound Engine::estimate() {
+  double walls_move = 0;
+  for (const Wall& wall : walls) walls_move = std::max(walls_move, wall.travel(clock.dt, extent_));
+  const double ball_moves = fastest_ball() * clock.dt;
+  const double used = std::max(2 * ball_travel_, ball_travel_ + wall_travel_);
+  NetworkQuery query = schedule_.plan(
+      clock.cycle, {std::max(2 * ball_moves, ball_moves + walls_move), std::max(0.0, skin_ - used), least_radius_});
+  query.local_damping = local_damping();
+  const bool few = coordination(contacts, balls, cell) < few_contacts;
+  // The user's own step is held to what is stable, not to what is accurate.
+  if (step.automatic()) {
+    query.links.birth_depth = birth_depth;
+    query.links.impact_share = step.accurate ? accurate_share : few ? impact_share : 0.0;
+  }
+  if (few) query.sweeps = std::min(query.sweeps, 3u);
+  const NetworkBound found = network_bound(contacts, balls, walls, cell, query, team);
+  estimated_ = found.links == 0 ? "no contact is within reach: nothing is estimated"
+                                : std::to_string(found.links) + " contacts, " + std::to_string(found.sweeps) +
+                                      (found.sweeps == 1 ? " sweep" : " sweeps") +
+                                      (few ? ", no more as there are fewer than two contacts a ball" : "");
+  // Where balls meet rarely, what they could meet keeps the step steady between two meetings.
+  const bool wide = few || !step.automatic();
+  const StepBound& stable = wide || found.network.step == 0 ? smaller(found.network, possible_) : found.network;
+  return smaller(stable, smaller(found.impact, found.kinematic));
+}
+
+}  // namespace scree::core

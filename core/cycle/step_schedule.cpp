@@ -1,0 +1,48 @@
+#include "core/cycle/step_schedule.hpp"
+
+#include <algorithm>
+
+namespace scree::core {
+
+namespace {
+
+// Cost in force passes, as measured: an estimate without sweeps, and each sweep. The share of a run that they may take
+// follows from the cycles since the last one.
+constexpr double base_cost = 4, sweep_cost = 2, share = 0.03;
+constexpr unsigned most_sweeps = 20;
+
+}  // namespace
+
+double StepSchedule::closed() const { return std::max(2 * balls_, balls_ + walls_); }
+
+NetworkQuery StepSchedule::plan(uint64_t cycle, const Motion& motion) {
+  NetworkQuery query;
+  query.sweeps = most_sweeps;
+  if (any_) {
+    const double credit = share * static_cast<double>(cycle - last_) - base_cost;
+    query.sweeps = static_cast<unsigned>(std::clamp(credit / sweep_cost, 0.0, static_cast<double>(most_sweeps)));
+  }
+  // Long enough for the sweeps to pay, and narrow where that is cheap; never beyond what is listed.
+  const double wanted = std::max(200 * motion.closing, std::min(1000 * motion.closing, 0.02 * motion.radius));
+  margin_ = std::min(motion.skin_left, std::max(1e-4 * motion.radius, wanted));
+  query.links.margin = margin_;
+  balls_ = walls_ = 0;
+  last_ = cycle;
+  any_ = true;
+  return query;
+}
+
+void StepSchedule::moved(double balls, double walls) {
+  balls_ += balls;
+  walls_ += walls;
+}
+
+void StepSchedule::restore(const State& state) {
+  margin_ = state.margin;
+  balls_ = state.balls;
+  walls_ = state.walls;
+  last_ = state.last;
+  any_ = state.any != 0;
+}
+
+}  // namespace scree::core

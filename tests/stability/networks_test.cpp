@@ -1,0 +1,100 @@
+// Case 64 of docs/stability.md: the certified step of random small networks against the eigenvalues of their stiffness
+// matrix. `./dev verify stability` looks at 10 000 of them, every change at 200.
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+#include "core/contact/network_bound.hpp"
+#include "stability/networks.hpp"
+#include "support/catch.hpp"
+
+using namespace scree::core;
+
+namespace {
+
+void look_at(uint64_t count, const std::string& name) {
+  lab::Lab here;
+  std::vector<double> ratios;
+  const auto begin = std::chrono::steady_clock::now();
+  for (uint64_t index = 0; index < count; ++index) {
+    networks::Maker maker(index, index % 2 == 0 ? 12 : 1);
+    const networks::Spec spec = maker.make(here.folder());
+    const auto simulation = here.make(spec.scene);
+    simulation->engine.forces();
+    Engine& engine = simulation->engine;
+    NetworkQuery query;
+    query.links.margin = 1e-8;
+    query.sweeps = 20;
+    const double certified =
+        network_bound(engine.contacts, engine.balls, engine.walls, engine.cell, query, engine.team).network.step;
+    const double taken = engine.step.bound().step;
+    const double limit = networks::true_limit(*simulation, 1e-3 * certified);
+    ratios.push_back(certified / limit);
+    INFO("network " << index << ": certified " << certified << " s, true " << limit << " s\n" << spec.scene);
+    REQUIRE(certified <= limit * (1 + 5e-6));
+    REQUIRE(taken <= limit * (1 + 5e-6));
+  }
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::sort(ratios.begin(), ratios.end());
+  const double median = ratios[ratios.size() / 2];
+  CHECK(median >= 0.95);
+  CHECK(ratios.front() > 0.7);
+  lab::measured(name, std::to_string(count) + " networks: certified over true step from " +
+                          lab::number(ratios.front()) + ", median " + lab::number(median) + ", to " +
+                          lab::number(ratios.back()) + "; " + lab::number(seconds) + " s");
+}
+
+}  // namespace
+
+TEST_CASE("64 OK: the step of small networks is certified and sharp") { look_at(200, "64"); }
+
+TEST_CASE("64 OK: 10 000 small networks", "[.][verify]") { look_at(10000, "64 verify"); }
+
+TEST_CASE("step OK: a random packing gets more than four fifths of its critical step") {
+  lab::Lab here;
+  // A reference gap joins neighbours that do not touch, as bonds do.
+  const auto simulation = here.make(R"(scree: 1
+seed: 3
+cell: {low: [0, 0, 0], high: [0.105, 0.105, 0.105], periodic: [x, y, z]}
+balls:
+  sand: {generator: random, box: [[0, 0, 0], [0.105, 0.105, 0.105]], radius: [3 mm, 4.5 mm], count: 2000, density: 2600}
+contacts:
+  - {name: grains, between: [sand, sand], model: linear, kn: 2e5, ks: 8e4, fric: 10, rgap: 1.5 mm}
+stages:
+  - go: [cycle: 1]
+)");
+  Engine& engine = simulation->engine;
+  engine.forces();
+  NetworkQuery query;
+  query.links.margin = 1e-6;
+  const Links all = gather_links(engine.contacts, engine.balls, engine.walls, engine.cell, query.links, 0,
+                                 engine.balls.size(), engine.team);
+  REQUIRE(all.links.size() > 4000);
+  const double coordination = 2.0 * static_cast<double>(all.links.size()) / 2000;
+  const double limit = networks::limit_by_powers(engine.balls, all);
+  std::string shares;
+  double most = 0;
+  for (const unsigned sweeps : {0u, 1u, 2u, 4u, 9u, 19u}) {
+    query.sweeps = sweeps;
+    const auto begin = std::chrono::steady_clock::now();
+    const NetworkBound found =
+        network_bound(engine.contacts, engine.balls, engine.walls, engine.cell, query, engine.team);
+    const double ms = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    CHECK(found.network.step <= limit);
+    most = std::max(most, found.network.step);
+    shares += " " + lab::number(found.network.step / limit) + " (" + std::to_string(found.sweeps) + ", " +
+              lab::number(ms) + " ms)";
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  for (int k = 0; k < 20; ++k) {
+    engine.forces_outdated();
+    engine.forces();
+  }
+  const double pass = 50 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  CHECK(most >= 0.92 * limit);
+  CHECK(engine.clock.dt >= 0.8 * limit);
+  lab::measured("step", "2000 balls, " + lab::number(coordination) +
+                            " contacts each: certified over true step (sweeps, time)" + shares +
+                            "; a force pass takes " + lab::number(pass) + " ms; used " +
+                            lab::number(engine.clock.dt / limit) + " of the true step");
+}
