@@ -133,6 +133,7 @@ void load_wall_contact(const BoundRule& rule, const Wall& wall, const BallView& 
   Birth birth;
   birth.row1 = row;
   birth.wall = &wall;
+  birth.patch = touches.patch[t];
   birth.r1 = s.r1[k];
   birth.mass = s.mass[k];
   birth.x = view.x[row];
