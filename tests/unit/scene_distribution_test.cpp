@@ -143,10 +143,11 @@ TEST_CASE("a rule's property may be drawn, in units, and stays in the range of t
 }
 
 TEST_CASE("a ball set may draw a contact property for each ball; the laws it meets cut it") {
-  const Scene read =
-      read_text_scene(scene(", ks: 1", ", contact: {kn: {normal: {mean: 2 MN/m, sd: 1 MN/m}}}"));
-  const PieceProperty& kn = read.balls.at(0).contact.at(0);
-  REQUIRE(kn.drawn != nullptr);
-  CHECK(kn.drawn->first() == 2e6);
-  CHECK(kn.drawn->low() == 0);
+  const Scene read = read_text_scene(scene(", kn: 1, ks: 1", ", contact: {fric: {normal: {mean: 0.4, sd: 0.4}}}"));
+  const PieceProperty& fric = read.balls.at(0).contact.at(0);
+  REQUIRE(fric.drawn != nullptr);
+  CHECK(fric.drawn->first() == 0.4);
+  CHECK(fric.drawn->low() == 0);
+  CHECK(refusal_of(scene(", kn: 1, ks: 1", ", contact: {fric: {normal: {mean: 40 cm, sd: 1}}}")).find("a length") !=
+        std::string::npos);
 }
