@@ -32,8 +32,11 @@ Json either(const std::vector<std::string>& keys);  ///< exactly one of the keys
 
 /// The keys of one component, by name. schema_plugins.cpp
 Json properties_of(const Component& component);
-/// What `contact:` of a piece and `set` may give: each property of any of these models, by name.
-Json piece_properties(const Components& components);
+/// What `contact:` of a piece and `set` may give: each property of any of these models, by name. `drawn`: also as a
+/// distribution.
+Json piece_properties(const Components& components, bool drawn);
+/// The distributions.
+Json drawn();
 /// A mapping that names a component by `key` and has the kernel's own keys besides: of the chosen component, its own
 /// properties are allowed, and no other.
 Json use(const Components& components, Kind kind, const std::string& key, const Json& own,

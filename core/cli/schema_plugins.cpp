@@ -76,6 +76,9 @@ Json shape(const scree_property& property) {
   }
 }
 
+/// Also a distribution, in place of a number of a contact model.
+Json or_drawn(Json value) { return {{"anyOf", Json::array({std::move(value), ref("drawn")})}}; }
+
 std::string description(const scree_property& property) {
   std::string out = property.doc != nullptr && *property.doc != '\0' ? property.doc : property.name;
   const std::string unit = property.unit != nullptr ? property.unit : "";
@@ -87,8 +90,10 @@ std::string description(const scree_property& property) {
   return out + ")";
 }
 
-Json property_schema(const scree_property& property) {
-  Json out = told(shape(property), description(property));
+Json property_schema(const scree_property& property, bool drawn) {
+  Json value = shape(property);
+  if (drawn && property.type == SCREE_NUMBER) value = or_drawn(std::move(value));
+  Json out = told(std::move(value), description(property));
   if (fallback_text(property).empty()) return out;
   if (property.type == SCREE_BOOLEAN)
     out["default"] = property.fallback != 0;
@@ -109,6 +114,14 @@ Json table(const scree_property& property) {
     if ((column.flags & SCREE_REQUIRED) != 0) required.emplace_back(column.name);
   }
   return {{"type", "array"}, {"items", mapping(std::move(columns), required)}};
+}
+
+Json properties_of(const Component& component, bool drawn) {
+  Json out = Json::object();
+  for (uint32_t k = 0; k < component.property_count(); ++k)
+    if (const scree_property& property = component.properties()[k]; is_input(property))
+      out[property.name] = property_schema(property, drawn && component.kind == Kind::contact_model);
+  return out;
 }
 
 /// Properties of different input forms exclude each other.
@@ -133,7 +146,7 @@ std::vector<std::string> required_of(const Component& component) {
 
 /// The kernel's own keys are looked at beside the branches; a branch only lets them pass.
 Json chosen(const Component& component, const std::string& key, const Json& own) {
-  Json properties = properties_of(component);
+  Json properties = properties_of(component, true);
   properties[key] = Json::object();
   for (const auto& [name, schema] : own.items()) properties[name] = Json::object();
   Json out = mapping(std::move(properties), required_of(component));
@@ -148,25 +161,32 @@ Json when(const std::string& key, const std::string& name, Json then) {
 
 }  // namespace
 
-Json properties_of(const Component& component) {
-  Json out = Json::object();
-  for (uint32_t k = 0; k < component.property_count(); ++k)
-    if (const scree_property& property = component.properties()[k]; is_input(property))
-      out[property.name] = property_schema(property);
-  return out;
+Json drawn() {
+  const Json bounds{{"low", told(number(), "no value below it")}, {"high", told(number(), "no value above it")}};
+  const auto law = [&](const char* name, Json keys, const std::vector<std::string>& required, bool cut) {
+    if (cut) keys.update(bounds);
+    return mapping({{name, mapping(std::move(keys), required)}}, {name});
+  };
+  return {
+      {"anyOf",
+       Json::array({law("normal", {{"mean", number()}, {"sd", with(number(), {{"minimum", 0}})}}, {"mean", "sd"}, true),
+                    law("uniform", bounds, {"low", "high"}, false),
+                    law("weibull", {{"shape", above_zero()}, {"scale", above_zero()}}, {"shape", "scale"}, true)})}};
 }
 
-Json piece_properties(const Components& components) {
+Json properties_of(const Component& component) { return properties_of(component, true); }
+
+Json piece_properties(const Components& components, bool drawn) {
   Json out = Json::object();
   for (const Component* component : components) {
     if (component->kind != Kind::contact_model) continue;
-    const Json properties = properties_of(*component);
+    const Json properties = properties_of(*component, drawn);
     for (const auto& [name, schema] : properties.items()) {
       // Which of the models of this name a piece meets is for the rules to say.
       if (!out.contains(name))
         out[name] = schema;
       else if (out[name] != schema)
-        out[name] = told(number(), schema.at("description").get<std::string>());
+        out[name] = told(drawn ? or_drawn(number()) : number(), schema.at("description").get<std::string>());
     }
   }
   return out;

@@ -10,14 +10,14 @@ using namespace schema;
 
 Json motion() { return {{"velocity", told(triple(), "m/s")}, {"spin", told(triple(), "rad/s")}}; }
 
-Json contact(const Components& components) {
-  return told(mapping(piece_properties(components)), "contact properties of this piece, which rules mix");
+Json contact(const Components& components, bool drawn) {
+  return told(mapping(piece_properties(components, drawn)), "contact properties of this piece, which rules mix");
 }
 
 Json wall(const Components& components) {
   Json own = motion();
   own["centre"] = told(triple(), "of rotation, m");
-  own["contact"] = contact(components);
+  own["contact"] = contact(components, false);
   return use(components, Kind::wall, "wall", own, {});
 }
 
@@ -25,7 +25,7 @@ Json ball_set(const Components& components) {
   Json own = motion();
   own["density"] = told(above_zero(), "kg/m3");
   own["fixed"] = told(Json{{"type", "boolean"}, {"default", false}}, "true: the balls never move");
-  own["contact"] = contact(components);
+  own["contact"] = contact(components, true);
   return use(components, Kind::generator, "generator", own, {});
 }
 
@@ -126,6 +126,7 @@ Json definitions(const Components& components) {
           {"contacts", told(list_of(rule(components)), "rules; the first one that fits a pair gives its law")},
           {"processes", told(entries(use(components, Kind::process, "process", Json::object(), {})),
                              "what acts on balls and walls, by name")},
+          {"drawn", told(drawn(), "a value for each contact, or for each ball: a distribution")},
           {"actions", actions(components)}};
 }
 

@@ -50,7 +50,7 @@ Json set(const Components& components) {
   const std::string name = "[A-Za-z_][A-Za-z0-9_]*";
   Json paths{{"^walls\\." + name + "\\.(velocity|spin|position)$", triple()},
              {"^balls\\." + name + "(\\.[^.]+)?\\.(velocity|spin)$", triple()}};
-  const Json of_models = piece_properties(components);
+  const Json of_models = piece_properties(components, true);
   for (const auto& [key, schema] : of_models.items()) {
     paths["^contacts\\." + name + "\\." + key + "$"] = schema;
     paths["^walls\\." + name + "\\.contact\\." + key + "$"] = told(number(), schema.at("description"));

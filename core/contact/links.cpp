@@ -189,6 +189,7 @@ void Gatherer::load(const BoundRule& rule, const Wall& wall, uint32_t row, uint3
   Birth birth;
   birth.row1 = row;
   birth.wall = &wall;
+  birth.patch = touches_.patch[touch];
   birth.r1 = s_.r1[k];
   birth.mass = s_.mass[k];
   birth.x = view_.x[row];

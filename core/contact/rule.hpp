@@ -21,6 +21,7 @@ struct Birth {
   const Wall* wall = nullptr;
   double r1 = 0, r2 = 0, mass = 0;  ///< m, m (0: flat wall), effective kg
   double x = 0, y = 0, z = 0;       ///< contact point, m
+  uint32_t patch = 0;               ///< of the wall
   uint64_t bonding = 0;             ///< how many bonds this pair had before the one it has, or had last
 };
 

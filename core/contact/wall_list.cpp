@@ -19,9 +19,13 @@ V cross(const V& a, const V& b) {
 }
 double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Birth birth_at_wall(const BallView& balls, const Wall& wall, uint32_t row, const V& normal, double distance) {
+/// A contact of the wall at one place: ball, patch, direction to the contact point.
+Birth birth_at_wall(const BallView& balls, const Wall& wall, const WallSlot& slot, double distance) {
+  const uint32_t row = slot.row;
+  const V& normal = slot.normal;
   Birth birth;
   birth.row1 = row;
+  birth.patch = slot.patch;
   birth.wall = &wall;
   birth.r1 = balls.radius[row];
   birth.mass = balls.inverse_mass[row] > 0 ? 1.0 / balls.inverse_mass[row] : 0.0;
@@ -58,7 +62,7 @@ void carry_over(WallList& list, const WallTouches& touches, const WallPass& pass
       ++old;
     } else if (varying > 0) {
       all = pass.rule->words;
-      pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, row, normal, touches.distance[t]), all.data());
+      pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, slots[k], touches.distance[t]), all.data());
       for (std::size_t v = 0; v < varying; ++v) property[k * varying + v] = all[pass.rule->varying[v]];
     }
   }
@@ -165,7 +169,7 @@ void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& ball
   for (std::size_t k = 0; k < list.slots.size() && varying > 0; ++k) {
     const WallSlot& slot = list.slots[k];
     all = rule.words;
-    rule.vary(birth_at_wall(balls, wall, slot.row, slot.normal, balls.radius[slot.row]), all.data());
+    rule.vary(birth_at_wall(balls, wall, slot, balls.radius[slot.row]), all.data());
     for (std::size_t v = 0; v < varying; ++v) list.property[k * varying + v] = all[rule.varying[v]];
   }
 }

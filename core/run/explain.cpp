@@ -6,6 +6,7 @@
 
 #include "core/base/isa.hpp"
 #include "core/base/log.hpp"
+#include "core/scene/use.hpp"
 
 namespace scree::core {
 
@@ -33,12 +34,28 @@ std::string law_text(const BoundRule& rule) {
                      rule.varying.empty() ? "uniform properties" : "per contact: " + varying_names(rule));
 }
 
-std::vector<std::string> law_steps(const Engine& engine) {
+std::string unit_in(const Use& use, uint32_t property) { return unit_of(use.component->properties()[property]); }
+
+/// What is drawn on the rules, and on the balls that rules mix.
+void add_draws(const Simulation& simulation, std::vector<std::string>& steps) {
+  for (const Rule& rule : simulation.rules)
+    for (const Setting& setting : rule.model.settings)
+      if (setting.drawn != nullptr)
+        steps.push_back(rule.name + "." + setting.name +
+                        " of each contact: " + setting.drawn->text(unit_in(rule.model, setting.property)));
+  for (const BallSet& set : simulation.ball_sets)
+    for (const PieceProperty& piece : set.contact)
+      if (piece.drawn != nullptr)
+        steps.push_back(set.name + "." + piece.name + " of each ball, in SI units: " + piece.drawn->text("1"));
+}
+
+std::vector<std::string> law_steps(const Simulation& simulation) {
   std::vector<std::string> steps;
-  const RuleBook& book = engine.contacts.book;
+  const RuleBook& book = simulation.engine.contacts.book;
   for (const BoundRule& rule : book.rules)
     steps.push_back(rule.model != nullptr ? law_text(rule) : rule.name + ": none, these pairs do not interact");
   if (steps.empty()) steps.push_back("no rule");
+  add_draws(simulation, steps);
   return steps;
 }
 
@@ -118,7 +135,7 @@ std::vector<Explanation::Phase> phases(const Simulation& simulation) {
   std::vector<std::string> detection{detect};
   if (engine.step.automatic() && !engine.estimated().empty()) detection.push_back("step: " + engine.estimated());
   return {{"detect", detection},
-          {"contact laws", law_steps(engine)},
+          {"contact laws", law_steps(simulation)},
           {"wall contacts", wall_steps(engine)},
           {"motion", motion_steps(engine)},
           {"model processes", model_steps(engine)},

@@ -209,6 +209,10 @@ void Placement::add(const scree_ball& b) {
   balls.group()[row] = known != leaves_.end() ? known->second : (leaves_[leaf] = simulation_.groups.leaf(leaf));
   if (set_.fixed) balls.require_fixed()[row] = fix_all;
   for (const PieceProperty& property : set_.contact) {
+    if (property.drawn != nullptr) {
+      const Random random(simulation_.scene.seed, "balls/" + set_.name + "/" + property.name);
+      balls.require_property(property.name)[row] = property.drawn->draw(random, id);
+    }
     if (property.formula == nullptr) continue;
     std::vector<double> values;
     for (const std::string& name : property.formula->names())

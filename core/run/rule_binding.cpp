@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/base/hash.hpp"
+#include "core/base/philox.hpp"
 #include "core/contact/scratch.hpp"
 
 namespace scree::core {
@@ -16,7 +18,25 @@ struct Input {
   const Setting* setting = nullptr;           ///< on the rule
   std::vector<std::optional<double>> groups;  ///< on balls, by leaf; empty: not given on pieces
   bool by_ball = false;                       ///< some balls have a value each
+  std::optional<Random> random{};             ///< of a distribution on the rule
 };
+
+/// What a draw depends on besides seed, rule and property: who meets, not when or in which order.
+uint64_t key_of(const Birth& birth, const Balls& balls) {
+  const uint64_t own = balls.id()[birth.row1];
+  Hasher hasher;
+  if (birth.wall != nullptr) {
+    hasher.add(own);
+    hasher.add(birth.patch);
+    hasher.add(birth.wall->name);
+  } else {
+    const uint64_t other = balls.id()[birth.row2];
+    hasher.add(std::min(own, other));
+    hasher.add(std::max(own, other));
+  }
+  hasher.add(birth.bonding);
+  return hasher.value();
+}
 
 double mixed(uint32_t mix, double a, double b) {
   switch (mix) {
@@ -71,6 +91,7 @@ struct Binding {
   }
 
   double value(const Input& input, const Birth& birth) const {
+    if (input.random) return input.setting->drawn->draw(*input.random, key_of(birth, simulation->engine.balls));
     if (input.setting != nullptr) {
       std::vector<double> values;
       for (const std::string& variable : input.setting->formula->names())
@@ -109,6 +130,14 @@ struct Binding {
     for (const Input& input : inputs) words[input.property->word] = value(input, birth);
     finish(words, birth);
   }
+
+  /// The same with the largest value in place of each draw.
+  void fill_largest(const Birth& birth, double* words) const {
+    std::copy(base.begin(), base.end(), words);
+    for (const Input& input : inputs)
+      words[input.property->word] = input.random ? input.setting->drawn->largest() : value(input, birth);
+    finish(words, birth);
+  }
 };
 
 /// Values of one property on the pieces; nothing when no piece gives it.
@@ -121,7 +150,7 @@ Input from_pieces(const Simulation& simulation, const scree_property& property) 
     for (const PieceProperty& piece : set.contact) {
       if (piece.name != property.name) continue;
       any = true;
-      if (piece.formula != nullptr) {
+      if (piece.formula != nullptr || piece.drawn != nullptr) {
         input.by_ball = true;
         continue;
       }
@@ -225,10 +254,12 @@ void collect_inputs(Binding& binding, const Probes& probes) {
     const auto given = std::find_if(binding.settings.begin(), binding.settings.end(),
                                     [&](const Setting& s) { return s.property == p; });
     if (given != binding.settings.end()) {
-      if (given->formula != nullptr) {
+      if (given->formula != nullptr || given->drawn != nullptr) {
         Input input;
         input.property = &property;
         input.setting = &*given;
+        if (given->drawn != nullptr)
+          input.random.emplace(binding.simulation->scene.seed, "rule/" + binding.name + "/" + property.name);
         binding.inputs.push_back(input);
       } else {
         std::copy(given->value.numbers.begin(), given->value.numbers.end(), binding.base.begin() + property.word);
@@ -306,7 +337,7 @@ BoundRule bind_rule(const Simulation& simulation, const Rule& rule) {
     if (bound.model->reach != nullptr)
       for (const Birth& birth : probes.births) {
         std::vector<double> words(binding->base.size());
-        binding->fill(birth, words.data());
+        binding->fill_largest(birth, words.data());
         const scree_pair pair{sizeof(scree_pair), 0, birth.r1, birth.r2, birth.mass};
         bound.reach = std::max(bound.reach, bound.model->reach(words.data(), &pair));
       }

@@ -108,7 +108,8 @@ Rest deepest(Engine& engine) {
 bool friction_in_vain(const Rule& rule, const BoundRule& bound) {
   if (bound.model == nullptr || !bound.normal_only()) return false;
   return std::any_of(rule.model.settings.begin(), rule.model.settings.end(), [](const Setting& setting) {
-    return setting.name == "fric" && (setting.formula != nullptr || setting.value.numbers.at(0) > 0);
+    return setting.name == "fric" &&
+           (setting.formula != nullptr || setting.drawn != nullptr || setting.value.numbers.at(0) > 0);
   });
 }
 

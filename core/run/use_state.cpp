@@ -1,6 +1,7 @@
 #include "core/run/use_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/scene/use.hpp"
 
@@ -16,6 +17,13 @@ void pack(Packer& out, const Place& place) {
 
 void pack(Packer& out, const std::shared_ptr<Formula>& formula) { out.text(formula == nullptr ? "" : formula->text()); }
 
+void pack(Packer& out, const std::shared_ptr<Distribution>& drawn) {
+  out.flag(drawn != nullptr);
+  if (drawn == nullptr) return;
+  out.u64(static_cast<uint64_t>(drawn->law()));
+  for (const double number : {drawn->first(), drawn->second(), drawn->low(), drawn->high()}) out.f64(number);
+}
+
 void pack(Packer& out, const Value& value) {
   out.u64(value.type);
   out.u64(value.rows);
@@ -30,6 +38,7 @@ void pack(Packer& out, const Setting& setting) {
   out.text(setting.name);
   pack(out, setting.value);
   pack(out, setting.formula);
+  pack(out, setting.drawn);
   pack(out, setting.place);
 }
 
@@ -38,6 +47,7 @@ void pack(Packer& out, const PieceProperty& piece) {
   out.f64(piece.value);
   out.text(piece.unit);
   pack(out, piece.formula);
+  pack(out, piece.drawn);
   pack(out, piece.place);
 }
 
@@ -121,6 +131,19 @@ std::shared_ptr<Formula> UseReader::formula(const Place& at) {
   }
 }
 
+std::shared_ptr<Distribution> UseReader::drawn() {
+  if (!in.flag()) return nullptr;
+  const uint64_t law = in.u64();
+  const double first = in.f64(), second = in.f64(), low = in.f64(), high = in.f64();
+  if (law > static_cast<uint64_t>(Distribution::Law::weibull)) in.refuse("a distribution has an unknown law");
+  auto out = std::make_shared<Distribution>(static_cast<Distribution::Law>(law), first, second);
+  out->cut(low, high);
+  const bool good = std::isfinite(first) && second >= 0 && std::isfinite(second) && out->kept() > 0;
+  if (!good || (out->law() == Distribution::Law::weibull && !(first > 0 && second > 0)))
+    in.refuse("a distribution has parameters that no scene could give");
+  return out;
+}
+
 Value UseReader::value(const scree_property& property) {
   Value value;
   value.type = static_cast<uint32_t>(in.u64());
@@ -145,8 +168,10 @@ Setting UseReader::setting(const Component& component) {
               "'");
   setting.value = value(*property);
   setting.formula = formula({});
+  setting.drawn = drawn();
   setting.place = place();
-  if (setting.formula == nullptr && !fits(*property, setting.value)) in.refuse("'" + setting.name + "' has no value");
+  if (setting.formula == nullptr && setting.drawn == nullptr && !fits(*property, setting.value))
+    in.refuse("'" + setting.name + "' has no value");
   for (const std::string& name : setting.formula == nullptr ? std::vector<std::string>() : setting.formula->names())
     if (name != "x" && name != "y" && name != "z") in.refuse("an expression uses '" + name + "'");
   return setting;
@@ -158,6 +183,7 @@ PieceProperty UseReader::piece() {
   piece.value = in.f64();
   piece.unit = in.text();
   piece.formula = formula({});
+  piece.drawn = drawn();
   piece.place = place();
   return piece;
 }

@@ -27,6 +27,7 @@ struct UseReader {
   Value value(const scree_property& property);
   PieceProperty piece();
   std::shared_ptr<Formula> formula(const Place& at);
+  std::shared_ptr<Distribution> drawn();
 };
 
 }  // namespace scree::core

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/nearest.hpp"
+#include "core/scene/drawn.hpp"
 #include "core/scene/units.hpp"
 
 namespace scree::core {
@@ -164,6 +165,12 @@ std::shared_ptr<Formula> read_formula(const std::string& text, const Place& plac
 
 std::optional<Number> read_number(const Node& node, const Wanted& wanted, Context& context) {
   const std::string text = node.is_scalar() ? trimmed(node.text) : "";
+  if (node.is_map() && !node.keys.empty() && is_distribution(node.keys[0].text)) {
+    context.report.error(node.place(), "'" + wanted.name +
+                                           "' cannot be drawn: only number properties of rules and of `contact:` of "
+                                           "ball sets can");
+    return std::nullopt;
+  }
   if (text.empty()) {
     context.report.error(node.place(),
                          wants(wanted) + ", not " + (node.is_scalar() ? "an empty text" : describe(node)));

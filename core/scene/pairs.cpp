@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/scene/drawn.hpp"
 #include "core/scene/numbers.hpp"
 #include "core/scene/units.hpp"
 #include "core/scene/use.hpp"
@@ -248,6 +249,8 @@ void check_piece(const std::string& name, const std::vector<PieceProperty>& prop
         context.report.error(given.place, "'" + given.name + "' of contact model '" + law->name + "' wants " +
                                               units::dimension(unit_of(*property)) + ", not " +
                                               units::dimension(given.unit));
+      else if (given.drawn != nullptr)
+        cut_to_range(*given.drawn, *property, given.place, context);
       else if (std::isinf(given.value) && !(property->flags & SCREE_POSITIVE_INFINITY))
         context.report.error(given.place, "'" + given.name + "' cannot be infinite");
       else if (const auto why = given.formula ? std::nullopt : range_error(*property, given.value))

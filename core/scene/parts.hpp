@@ -26,7 +26,8 @@ std::optional<Action> read_action(const Key& key, const Node& node, Context& con
 BondAction read_bond(const Node& node, Context& context);
 std::optional<SetAction> read_assignment(const Key& key, const Node& node, Context& context);
 
-std::vector<PieceProperty> read_piece_properties(const Node& node, const std::string& what, Context& context);
+std::vector<PieceProperty> read_piece_properties(const Node& node, const std::string& what, bool drawn,
+                                                 Context& context);
 /// A bare number of `set:` that no component owns, as the velocity of a wall.
 Setting bare_setting(const std::string& name, const Place& place, std::vector<double> numbers);
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/scene/drawn.hpp"
 #include "core/scene/parts.hpp"
 #include "core/scene/use.hpp"
 
@@ -29,12 +30,18 @@ Setting bare_setting(const std::string& name, const Place& place, std::vector<do
   return setting;
 }
 
-std::vector<PieceProperty> read_piece_properties(const Node& node, const std::string& what, Context& context) {
+std::vector<PieceProperty> read_piece_properties(const Node& node, const std::string& what, bool drawn,
+                                                 Context& context) {
   std::vector<PieceProperty> out;
   Mapping mapping(node, "`contact` of " + what, context);
   mapping.rest([&](const Key& key, const Node& value) {
     Wanted wanted{key.text, ""};
     wanted.infinity = wanted.position = true;
+    if (drawn && value.is_map()) {
+      const auto read = read_drawn(value, wanted, context);
+      if (read) out.push_back({key.text, 0, read->unit, nullptr, value.place(), read->distribution});
+      return;
+    }
     const auto number = read_number(value, wanted, context);
     if (number) out.push_back({key.text, number->value, number->unit, number->formula, value.place()});
   });
@@ -51,7 +58,7 @@ WallUse read_wall(const Key& name, const Node& node, Context& context) {
   take_triple(mapping, "spin", "rad/s", wall.spin, context);
   take_triple(mapping, "centre", "m", wall.centre, context);
   if (const Node* contact = mapping.take("contact"))
-    wall.contact = read_piece_properties(*contact, mapping.what(), context);
+    wall.contact = read_piece_properties(*contact, mapping.what(), false, context);
   if (mapping.is_map() || node.is_null()) wall.wall = read_use(mapping, Kind::wall, "wall", context);
   mapping.finish();
   return wall;
@@ -72,7 +79,7 @@ BallSet read_ball_set(const Key& name, const Node& node, Context& context) {
   take_triple(mapping, "velocity", "m/s", set.velocity, context);
   take_triple(mapping, "spin", "rad/s", set.spin, context);
   if (const Node* contact = mapping.take("contact"))
-    set.contact = read_piece_properties(*contact, mapping.what(), context);
+    set.contact = read_piece_properties(*contact, mapping.what(), true, context);
   if (mapping.is_map() || node.is_null()) set.generator = read_use(mapping, Kind::generator, "generator", context);
   mapping.finish();
   return set;

@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/plugin/catalogue.hpp"
+#include "core/scene/distribution.hpp"
 #include "core/scene/formula.hpp"
 
 namespace scree::core {
@@ -24,13 +25,14 @@ struct Value {
   std::vector<std::string> texts;
 };
 
-/// One property of a component, set by the scene. A number may be a formula over position (x, y, z) instead.
+/// One property of a component, set by the scene. A number may be a formula over position (x, y, z) instead, or drawn.
 struct Setting {
   std::string name;
   uint32_t property = 0;  ///< index in the component's table
   Value value;
   std::shared_ptr<Formula> formula;  ///< null unless the value is an expression that depends on x, y or z
   Place place;
+  std::shared_ptr<Distribution> drawn{};  ///< null unless each contact draws its value
 };
 
 /// A component with its settings. Fallbacks are not filled in: absent means absent.
@@ -48,6 +50,8 @@ struct PieceProperty {
   std::string unit;  ///< as written, "" for plain SI; checked against the law's unit when a rule uses it
   std::shared_ptr<Formula> formula;
   Place place;
+  std::shared_ptr<Distribution>
+      drawn{};  ///< null unless each ball draws its value; cut to the laws' range by the check
 };
 
 struct BallSet {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "core/scene/drawn.hpp"
 #include "core/scene/files.hpp"
 #include "core/scene/mapping.hpp"
 #include "core/scene/numbers.hpp"
@@ -33,9 +34,15 @@ class ValueReader {
  public:
   ValueReader(const scree_property& property, Context& context) : property_(property), context_(context) {}
 
-  bool number(const Node& node, bool position, Setting& setting) {
+  bool number(const Node& node, bool varies, Setting& setting) {
     Wanted wanted = wanted_for(property_);
-    wanted.position = position;
+    wanted.position = varies;
+    if (varies && node.is_map()) {
+      const auto read = read_drawn(node, wanted, context_);
+      if (!read || !cut_to_range(*read->distribution, property_, node.place(), context_)) return false;
+      setting.drawn = read->distribution;
+      return true;
+    }
     const auto read = read_number(node, wanted, context_);
     if (!read) return false;
     if (read->formula) {
@@ -209,11 +216,11 @@ class ValueReader {
 
 }  // namespace
 
-bool read_value(const scree_property& property, bool position, const Node& node, Setting& setting, Context& context) {
+bool read_value(const scree_property& property, bool varies, const Node& node, Setting& setting, Context& context) {
   ValueReader reader(property, context);
   switch (property.type) {
     case SCREE_NUMBER:
-      return reader.number(node, position, setting);
+      return reader.number(node, varies, setting);
     case SCREE_INTEGER:
       return reader.integer(node, setting.value);
     case SCREE_BOOLEAN:

@@ -168,8 +168,8 @@ TEST_CASE("the flag --set replaces a value before the scene is read") {
 TEST_CASE("list names every plug-in of the build with its version") {
   const ProgramEnd end = scree({"list"});
   CHECK(end.code == 0);
-  for (const char* name :
-       {"linear", "plane", "box", "random", "lattice", "file", "gravity", "local_damping", "csv", "vtk"})
+  for (const char* name : {"linear", "plane", "box", "random", "lattice", "file", "gravity", "local_damping",
+                           "quiet_boundary", "csv", "vtk"})
     CHECK(has(end.out, std::string(" ") + name + " "));
   CHECK_FALSE(has(end.out, "refused"));
   const Json walls = Json::parse(scree({"list", "wall", "--json"}).out);

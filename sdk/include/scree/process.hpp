@@ -8,6 +8,9 @@
 ///         ends the program.
 ///     void rotation(const Spin& spin, Moment& moment) const;
 ///         The same, run only in scenes whose balls have a spin; a frictionless scene keeps neither spin nor moment.
+///     T at(double time) const;
+///         The process as it acts at model time `time` (s): `ball` and `rotation` run on what it returns. For a force
+///         with a history, as a pulse. It must depend on time and settings only, and not throw. [any thread]
 ///     void prepare(const Host& host);
 ///         Before the first cycle, after each edit of the scene and after a resume: look up walls, give quantities
 ///         their first value, refuse by throwing. [one thread]
@@ -82,8 +85,7 @@ constexpr auto rotation_function() {
 }
 
 template <class T>
-SCREE_INLINE void rows(const void* self, const scree_rows* rows) {
-  const T& process = *static_cast<const T*>(self);
+SCREE_INLINE void rows_of(const T& process, const scree_rows* rows) {
   const std::size_t n = rows->n;
   double* const* word = rows->word;
   if constexpr (HasBall<T>) {
@@ -97,6 +99,14 @@ SCREE_INLINE void rows(const void* self, const scree_rows* rows) {
     rotation_function<T>().loop(
         process, word, n, [](const T& t, auto&&... cell) __attribute__((always_inline)) { t.rotation(cell...); });
   }
+}
+template <class T>
+SCREE_INLINE void rows(const void* self, const scree_rows* block) {
+  const T& given = *static_cast<const T*>(self);
+  if constexpr (requires { given.at(block->time); })
+    rows_of<T>(given.at(block->time), block);
+  else
+    rows_of<T>(given, block);
 }
 template <class T>
 __attribute__((flatten)) void rows_baseline(const void* self, const scree_rows* block) noexcept {

@@ -43,6 +43,22 @@ TEST_CASE("plain_log is within 1e-15 of the logarithm") {
   CHECK(plain_log(1.0) == 0.0);
 }
 
+TEST_CASE("plain_exp is within 1e-15 of the exponential") {
+  // Against expl with 64 bits of mantissa.
+  const Random random(1, "exp");
+  double worst = 0;
+  for (uint64_t k = 0; k < 200000; ++k) {
+    const double x = (random.uniform(k, 0) - 0.5) * (k % 2 == 0 ? 1400 : 2);
+    const long double exact = std::exp(static_cast<long double>(x));
+    worst = std::max(worst, static_cast<double>(std::abs((static_cast<long double>(plain_exp(x)) - exact) / exact)));
+  }
+  INFO("worst " << worst);
+  CHECK(worst < 1e-15);
+  CHECK(plain_exp(0) == 1);
+  CHECK(plain_exp(-1000) == 0);
+  CHECK(plain_exp(1000) == INFINITY);
+}
+
 TEST_CASE("inverse_normal inverts the normal distribution") {
   // Closed form: P(Z <= z) = erfc(-z/sqrt 2)/2, evaluated in long double. An error dz of z moves log P by about
   // max(1, z^2) dz/z, so 8 units of 1e-16 in z allow 1e-15 (1 + z^2).
