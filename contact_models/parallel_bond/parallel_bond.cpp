@@ -1,6 +1,6 @@
 // Linear contact with a parallel bond: a disc of elastic cement that carries force and moment and breaks by the
-// stresses of beam theory. D. O. Potyondy and P. A. Cundall, "A bonded-particle model for rock", Int. J. Rock Mech. Min.
-// Sci. 41 (2004) 1329-1364. Property names follow PFC. Equations: parallel_bond.md.
+// stresses of beam theory. D. O. Potyondy and P. A. Cundall, "A bonded-particle model for rock", Int. J. Rock Mech.
+// Min. Sci. 41 (2004) 1329-1364. Property names follow PFC. Equations: parallel_bond.md.
 #include <scree/glued_springs.hpp>
 
 namespace {
@@ -67,11 +67,12 @@ struct ParallelBond : GluedSprings {
           "'cb_tenf' and 'cb_shearf' are the strengths of one contact bond: give both above 0, or neither");
     const bool by_modulus = form == 1 || form == 3;
     if (by_modulus ? !(pb_emod > 0) : !(pb_kn > 0 || pb_ks > 0))
-      throw std::invalid_argument(by_modulus ? "a parallel bond with 'pb_emod' 0 has no stiffness and can carry nothing; "
-                                               "give a modulus above 0, or take the model 'contact_bond' or 'linear'"
-                                             : "a parallel bond with 'pb_kn' and 'pb_ks' 0 has no stiffness and can "
-                                               "carry nothing; give one above 0, or take the model 'contact_bond' or "
-                                               "'linear'");
+      throw std::invalid_argument(by_modulus
+                                      ? "a parallel bond with 'pb_emod' 0 has no stiffness and can carry nothing; "
+                                        "give a modulus above 0, or take the model 'contact_bond' or 'linear'"
+                                      : "a parallel bond with 'pb_kn' and 'pb_ks' 0 has no stiffness and can "
+                                        "carry nothing; give one above 0, or take the model 'contact_bond' or "
+                                        "'linear'");
   }
   void derive(const Pair& p) {
     if (p.form >= 2) stiffness_from_modulus(p);
@@ -123,7 +124,7 @@ struct ParallelBond : GluedSprings {
     const double glue_after = glued_law(c, opened, s, glue, r);
     const Disc d = disc(c);
     const Vec3 force = force_after(c, d, b, opened), moment = moment_after(c, d, b);
-    const bool held = !bond_broke(b.mode);
+    const bool held = bond_intact(b.mode);
     const double mode = mode_under(c, d, force, moment);
     const double holds = held && mode < 0 ? 1.0 : 0.0;
     b.mode = held ? mode : b.mode + 0.0;
@@ -135,7 +136,7 @@ struct ParallelBond : GluedSprings {
     r.moment = b.moment;
   }
   /// Both bonds gone; of which kind the parallel one went.
-  double broken(const Bond& b) const { return glues() && !bond_broke(b.glue) ? 0.0 : break_of(b.mode); }
+  double broken(const Bond& b) const { return glues() && bond_intact(b.glue) ? 0.0 : break_of(b.mode); }
 
   void energy(const SpinContact& c, const State& s0, const State& s, const Bond& b0, const Bond& b,
               const MomentResponse& r, Energies& e) const {
@@ -143,11 +144,11 @@ struct ParallelBond : GluedSprings {
     const double gone = bond_broke_in_tension;
     glued_energy(c, opened, s0, glues() ? b0.glue : gone, s, glues() ? b.glue : gone, r, e);
     const Disc d = disc(c);
-    const bool broke = !bond_broke(b0.mode) && bond_broke(b.mode);
+    const bool broke = bond_intact(b0.mode) && bond_broke(b.mode);
     e.strain += strain(c, d, b.force, b.force, b.moment, b.moment);
     // The mean force over the stretch given up, as in glued_energy; of the force after the break nothing is left.
-    const double lost = strain(c, d, c.carried(b0.force), force_after(c, d, b0, opened), c.carried(b0.moment),
-                               moment_after(c, d, b0));
+    const double lost =
+        strain(c, d, c.carried(b0.force), force_after(c, d, b0, opened), c.carried(b0.moment), moment_after(c, d, b0));
     e.broken += broke ? lost : 0.0;
   }
   /// Half of the product of two loads over the stiffnesses: of a load with itself it is what the disc stores.
@@ -160,7 +161,7 @@ struct ParallelBond : GluedSprings {
 
   Stiffness stiffness(const Contact& c, const State&, const Bond& b) const {
     Stiffness k = stiffness(c);
-    if (glues() && !bond_broke(b.glue)) k.shear = ks;
+    if (glues() && bond_intact(b.glue)) k.shear = ks;
     if (bond_broke(b.mode)) return k;
     const Disc d = disc(c);
     // The dashpots stay those of the springs: shares of what is critical beside the larger stiffness.

@@ -24,15 +24,18 @@ struct LinearSprings {
   /// Declares the properties above; `by_modulus` lists the forms of `either` in which `emod kratio` give the stiffness.
   template <class L>
   static void describe_springs(Properties<L>& p, std::initializer_list<const char*> by_modulus) {
-    Property normal =
-        p.number("kn", &L::kn, "N/m", "normal stiffness").at_least(0).mix(series);
+    Property normal = p.number("kn", &L::kn, "N/m", "normal stiffness").at_least(0).mix(series);
     Property shear = p.number("ks", &L::ks, "N/m", "shear stiffness").at_least(0).mix(series);
     for (const char* form : by_modulus) {
       normal.derived(form);
       shear.derived(form);
     }
-    p.number("emod", &L::emod, "Pa", "effective modulus: kn = emod area / length of the pair").at_least(0).mix(harmonic);
-    p.number("kratio", &L::kratio, "1", "normal over shear stiffness; 0 means no shear stiffness").at_least(0).mix(mean);
+    p.number("emod", &L::emod, "Pa", "effective modulus: kn = emod area / length of the pair")
+        .at_least(0)
+        .mix(harmonic);
+    p.number("kratio", &L::kratio, "1", "normal over shear stiffness; 0 means no shear stiffness")
+        .at_least(0)
+        .mix(mean);
     p.number("fric", &L::fric, "1", "friction coefficient").at_least(0).fallback(0).mix(least);
     p.number("dp_nratio", &L::dp_nratio, "1", "normal dashpot, share of critical damping")
         .at_least(0)
