@@ -89,6 +89,11 @@ TEST_CASE("parallel_bond adds stresses, weighs moments and takes tension before 
   CHECK(breaks(coulomb, {0.4228 * 1e6 / 4e11, 0, 1e-6}, {}) == 2);
 }
 
+TEST_CASE("parallel_bond computes the tangent of its friction angle") {
+  for (const double angle : {0.0, 1e-9, 0.1, 0.5, pi / 4, 1.0, 1.4, 1.569})
+    CHECK(rule({{"pb_fa", angle}})[word_of(model(), "pb_slope")] == Approx(std::tan(angle)).epsilon(1e-12));
+}
+
 TEST_CASE("parallel_bond adds to a linear contact, which stays and slides when the bond is gone") {
   BondedPair pair = bonded({{"kn", 1e6}, {"ks", 1e6}, {"fric", 0.5}, {"pb_coh", 1e6}});
   pair.move({0, 0, -1e-6});
