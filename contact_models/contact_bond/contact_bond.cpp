@@ -40,7 +40,7 @@ struct ContactBond : GluedSprings {
 
   Stiffness stiffness(const Contact& c, const State&, const Bond& b) const {
     Stiffness k = stiffness(c);
-    if (!bond_broke(b.mode)) k.shear = ks;
+    if (bond_intact(b.mode)) k.shear = ks;
     return k;
   }
 };

@@ -54,6 +54,7 @@ inline double change_in_turns(BondedPair pair, int turns, int steps, bool about_
       pair.contact.velocity = (chord - (angle * length) * ey.cross(ez)) / pair.columns.dt;
     }
     pair.contact.normal = ez;
+    if (about_normal) pair.contact.velocity = {};
     pair.contact.spin = {};
     pair.columns.put(0, pair.contact);
     pair.breaks += pair.columns.run();

@@ -45,11 +45,10 @@ TEST_CASE("parallel_bond breaks where the beam stress at its rim reaches the str
     double event;
   };
   const double kn = 1e12, ks = 4e11;
-  const Case cases[] = {
-      {"pb_ten", {0, 0, 314.1592653589793 / (kn * area)}, {}, {0, 0, -314.159265}, {}, 1},
-      {"pb_ten", {}, {0, 0.7853981633974483 / (kn * inertia), 0}, {}, {0, -0.785398163, 0}, 1},
-      {"pb_coh", {314.1592653589793 / (ks * area), 0, 0}, {}, {-314.159265, 0, 0}, {}, 2},
-      {"pb_coh", {}, {0, 0, -1.5707963267948966 / (ks * 2 * inertia)}, {}, {0, 0, 1.57079633}, 2}};
+  const Case cases[] = {{"pb_ten", {0, 0, 314.1592653589793 / (kn * area)}, {}, {0, 0, -314.159265}, {}, 1},
+                        {"pb_ten", {}, {0, 0.7853981633974483 / (kn * inertia), 0}, {}, {0, -0.785398163, 0}, 1},
+                        {"pb_coh", {314.1592653589793 / (ks * area), 0, 0}, {}, {-314.159265, 0, 0}, {}, 2},
+                        {"pb_coh", {}, {0, 0, -1.5707963267948966 / (ks * 2 * inertia)}, {}, {0, 0, 1.57079633}, 2}};
   for (const Case& c : cases) {
     INFO(c.strength << " event " << c.event);
     BondedPair pair = bonded({{c.strength, 1e6}});
@@ -88,6 +87,11 @@ TEST_CASE("parallel_bond adds stresses, weighs moments and takes tension before 
   CHECK(breaks(coulomb, {2.1548 * 1e6 / 4e11, 0, -2e-6}, {}) == 2);
   CHECK(breaks(coulomb, {0.4225 * 1e6 / 4e11, 0, 1e-6}, {}) == 0);  // 1 - 0.57735 under as much tension
   CHECK(breaks(coulomb, {0.4228 * 1e6 / 4e11, 0, 1e-6}, {}) == 2);
+}
+
+TEST_CASE("parallel_bond computes the tangent of its friction angle") {
+  for (const double angle : {0.0, 1e-9, 0.1, 0.5, pi / 4, 1.0, 1.4, 1.569})
+    CHECK(rule({{"pb_fa", angle}})[word_of(model(), "pb_slope")] == Approx(std::tan(angle)).epsilon(1e-12));
 }
 
 TEST_CASE("parallel_bond adds to a linear contact, which stays and slides when the bond is gone") {
@@ -147,8 +151,14 @@ TEST_CASE("parallel_bond takes its stiffness from moduli, of the springs, the bo
   REQUIRE(m.form_count == 4);
   CHECK(m.derived_from_pair == 14u);
   const auto derived = [&](uint32_t form, double r1, double r2, const char* name) {
-    std::vector<double> words =
-        rule_of(m, {{"kn", 5}, {"ks", 6}, {"pb_kn", 7}, {"pb_ks", 8}, {"emod", 1e9}, {"kratio", 2.5}, {"pb_emod", 2e9}, {"pb_kratio", 4}});
+    std::vector<double> words = rule_of(m, {{"kn", 5},
+                                            {"ks", 6},
+                                            {"pb_kn", 7},
+                                            {"pb_ks", 8},
+                                            {"emod", 1e9},
+                                            {"kratio", 2.5},
+                                            {"pb_emod", 2e9},
+                                            {"pb_kratio", 4}});
     REQUIRE(prepared(words, form).empty());
     const scree_pair pair{sizeof(scree_pair), 0, r1, r2, 1.0};
     m.derive(words.data(), form, &pair);
@@ -183,8 +193,7 @@ TEST_CASE("parallel_bond keeps forces and moments while the pair turns as a rigi
 
 TEST_CASE("parallel_bond accounts for its work, the break included") {
   for (const double pull : {1.0, -1.0}) {
-    BondedPair pair = bonded({{"kn", 1e6}, {"ks", 5e5}, {"fric", 0.3}, {"pb_ten", 1e6}, {"pb_coh", 1e6}, {"dp_sratio", 0.1}});
-    pair.columns.dt = 1;
+    BondedPair pair = bonded({{"kn", 1e6}, {"ks", 5e5}, {"fric", 0.3}, {"pb_ten", 1e6}, {"pb_coh", 1e6}});
     double stored = 0;
     for (int k = 0; k < 3000; ++k) {
       const double before = pair.strain();
@@ -202,6 +211,7 @@ TEST_CASE("parallel_bond reports the tangent of force and moment, bonded and bro
   BondedPair pair = bonded({{"kn", 1e6}, {"ks", 5e5}, {"fric", 0.3}, {"pb_ten", 1e6}, {"dp_nratio", 0.2}});
   double kn = 0, ks = 0, bending = 0, twist = 0, dashpot = 0;
   const scree_stiffness out{sizeof(scree_stiffness), 1, &kn, &ks, &bending, &twist, &dashpot, nullptr};
+  pair.columns.dt = 1e6;  // dashpots do nothing
   pair.move({0, 0, -1e-6});
   pair.columns.stiffness(out);
   CHECK(kn == Approx(1e6 + 1e12 * area).epsilon(1e-14));
@@ -209,7 +219,6 @@ TEST_CASE("parallel_bond reports the tangent of force and moment, bonded and bro
   CHECK(bending == Approx(1e12 * inertia).epsilon(1e-14));
   CHECK(twist == Approx(4e11 * 2 * inertia).epsilon(1e-14));
   CHECK(dashpot * std::sqrt(kn) == Approx(0.2 * std::sqrt(1e6)).epsilon(1e-14));
-  pair.columns.dt = 1e6;  // no dashpot
   const Vec3 force = pair.force(), moment = pair.moment();
   pair.move({1e-8, 0, 1e-8}, {1e-6, 0, 1e-6});
   CHECK((pair.force() - force).x == Approx(-1e-8 * ks).epsilon(1e-5));

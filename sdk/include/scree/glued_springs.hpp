@@ -9,6 +9,7 @@ namespace scree {
 /// The mode of a bond, a word of Bond: it starts at 0, and what is above 0 has broken.
 constexpr double bond_holds = -1, bond_new = 0, bond_broke_in_tension = 1, bond_broke_in_shear = 2;
 SCREE_INLINE bool bond_broke(double mode) { return mode > 0; }
+SCREE_INLINE bool bond_intact(double mode) { return mode <= 0; }
 /// As `broken` of a contact model says it: 0 intact, 1 tension, 2 shear.
 SCREE_INLINE double break_of(double mode) { return mode > 0 ? mode : 0.0; }
 
@@ -37,15 +38,16 @@ struct GluedSprings : LinearSprings {
 
   /// One cycle of a bond in `mode`, where 1 and 2 are no bond; its mode afterwards.
   SCREE_INLINE double glued_law(const Contact& c, double opened, State& s, double mode, Response& r) const {
-    const bool held = !bond_broke(mode);
-    const Glued before = glued(c, s, opened, held);
+    const Glued before = glued(c, s, opened, bond_intact(mode));
     const Vec3 trial = before.shear_before - ks * c.slip();
     const double size = trial.norm();
-    // A strength of zero breaks at the first load, and not before there is one.
-    const bool torn = held && before.normal < 0 && !(-before.normal < cb_tenf);
-    const bool sheared = held && size > 0 && !(size < cb_shearf);
-    const bool holds = held && !torn && !sheared;
-    const double normal = holds ? before.normal : left_of(before.normal, before.active);
+    // A strength of zero breaks at the first load, and not before there is one. Numbers instead of truth values, or g++
+    // makes no vector loop of it.
+    const double sheared = size > 0 ? (size < cb_shearf ? +bond_holds : +bond_broke_in_shear) : +bond_holds;
+    const double torn = before.normal < 0 ? (-before.normal < cb_tenf ? +sheared : +bond_broke_in_tension) : +sheared;
+    const double next = mode > 0 ? +mode : +torn;
+    const bool holds = bond_intact(next);
+    const double normal = holds ? +before.normal : left_of(before.normal, before.active);
     const double limit = fric * normal;
     const bool sliding = !holds && size > limit;
     const Vec3 shear = (sliding ? limit / size : 1.0) * trial;
@@ -53,7 +55,7 @@ struct GluedSprings : LinearSprings {
     r.force = glued_normal(c, normal, before.active, holds) * c.normal + shear -
               glued_dashpot(c, before.active, holds, sliding);
     r.sliding = sliding;
-    return torn ? +bond_broke_in_tension : sheared ? +bond_broke_in_shear : held ? +bond_holds : +mode;
+    return next;
   }
   // Dashpots of a contact that holds act at any gap, and the modes that spare a free contact leave them alone.
   SCREE_INLINE double glued_normal(const Contact& c, double spring, bool active, bool holds) const {
@@ -65,7 +67,7 @@ struct GluedSprings : LinearSprings {
 
   SCREE_INLINE void glued_energy(const Contact& c, double opened, const State& old, double mode_before, const State& s,
                                  double mode, const Response& r, Energies& e) const {
-    const bool held = !bond_broke(mode_before), holds = !bond_broke(mode), broke = held && !holds;
+    const bool held = bond_intact(mode_before), holds = bond_intact(mode), broke = held && !holds;
     const Glued before = glued(c, old, opened, held);
     const double normal = holds ? before.normal : left_of(before.normal, before.active);
     const Vec3 trial = before.shear_before - ks * c.slip(), shear = s.spring - s.spring.dot(c.normal) * c.normal;
