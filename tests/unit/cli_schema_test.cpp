@@ -137,6 +137,12 @@ TEST_CASE("the schema allows the keys that the reader names in pieces, rules and
         keys_of(branch(entry_of("balls"), "generator", "points").at("properties")));
   CHECK(listed(scene("", ", contact: {qqq: 1}", "", "")) ==
         keys_of(entry_of("balls").at("properties").at("contact").at("properties")));
+  const Json& drawn = schema().at("definitions").at("drawn").at("anyOf");
+  for (const std::size_t law : {0u, 1u, 2u}) {
+    const std::string name = drawn.at(law).at("required").at(0);
+    const Json& keys = drawn.at(law).at("properties").at(name);
+    CHECK(listed(scene("", "", ", fric: {" + name + ": {qqq: 1}}", "")) == keys_of(keys.at("properties")));
+  }
   CHECK(plus(listed(scene("", "", ", qqq: 1", "")), "model") ==
         keys_of(branch(rule(), "model", "linear").at("properties")));
   CHECK(listed(with_rest("  - {name: a, between: [sand, floor], model: none, qqq: 1}\n")) ==
