@@ -67,6 +67,7 @@ class Network {
               Block& damping) const;
   void name(const Portion& portion, const Worst& worst, const std::vector<double>& weights, StepBound& bound) const;
   std::vector<double> best_weights();
+  std::vector<double> equal_weights();
 
   const Contacts& contacts_;
   const Balls& balls_;
@@ -150,7 +151,7 @@ std::vector<double> Network::best_weights() {
   for (std::size_t row = 0; row < n; ++row) weights[row] = std::sqrt(largest[row] / single);
   if (dashpots_) h_ = 1 / std::sqrt(2 * single * factor);
   double held = 0, earlier = 0;
-  for (unsigned k = 0; k <= query_.sweeps; ++k) {
+  for (unsigned k = 0; k < std::max(1u, query_.sweeps); ++k) {
     const double most = sweep(largest, weights, true), root = 1 / std::sqrt(most * factor);
     // Seen with h, dashpots allow at least this: they weigh more in a shorter step, but no more than in proportion.
     const double allowed = !dashpots_ || root >= h_ ? root : root * root / h_;
@@ -171,6 +172,21 @@ std::vector<double> Network::best_weights() {
   // A little more than the largest of all: the blocks are then looked at one by one.
   out_.network.step = 2 * (dashpots_ ? 1 / std::sqrt(single * factor) : held * (1 + 1e-3));
   return best;
+}
+
+// The same weight for all: one look at the contacts, for estimates that follow each other closely.
+std::vector<double> Network::equal_weights() {
+  double stiffest = 0;
+  each_portion([&](const Portion& portion) {
+    for (const Link& link : portion.found.links)
+      for (const uint32_t row : link.row)
+        if (row != no_row)
+          stiffest = std::max(stiffest, std::max(link.kn, link.ks) * balls_[Column::inverse_mass][row]);
+  });
+  if (!(stiffest > 0)) return best_weights();
+  // A single spring moves a ball at least this fast, so the limit lies below.
+  out_.network.step = 2 / std::sqrt(stiffest * (1 + query_.local_damping)) * (1 + 1e-3);
+  return std::vector<double>(balls_.size(), 1.0);
 }
 
 void Network::blocks(const Portion& portion, std::size_t row, const std::vector<double>& weights, Block& stiffness,
@@ -235,7 +251,7 @@ void Network::name(const Portion& portion, const Worst& worst, const std::vector
 }
 
 NetworkBound Network::bound() {
-  const std::vector<double> weights = best_weights();
+  const std::vector<double> weights = query_.sweeps == 0 ? equal_weights() : best_weights();
   if (weights.empty()) return out_;
   StepBound& bound = out_.network;
   const double start = 0.5 * bound.step;

@@ -6,7 +6,7 @@ namespace scree::core {
 /// What an estimate of the network's limit may use and must cover.
 struct NetworkQuery {
   LinkQuery links;
-  unsigned sweeps = 0;       ///< at most, beyond the two passes that every estimate takes
+  unsigned sweeps = 0;       ///< of weights, at most; 0: equal weights, the cheapest
   double local_damping = 0;  ///< Cundall's factor
 };
 

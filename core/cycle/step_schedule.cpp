@@ -8,7 +8,7 @@ namespace {
 
 // Cost in force passes, as measured: an estimate without sweeps, and each sweep. The share of a run that they may take
 // follows from the cycles since the last one.
-constexpr double base_cost = 4, sweep_cost = 2, share = 0.03;
+constexpr double base_cost = 6, sweep_cost = 2, share = 0.03;
 constexpr unsigned most_sweeps = 20;
 
 }  // namespace

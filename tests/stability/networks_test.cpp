@@ -74,7 +74,7 @@ stages:
   const double limit = networks::limit_by_powers(engine.balls, all);
   std::string shares;
   double most = 0;
-  for (const unsigned sweeps : {0u, 1u, 2u, 4u, 9u, 19u}) {
+  for (const unsigned sweeps : {0u, 1u, 2u, 5u, 10u, 20u}) {
     query.sweeps = sweeps;
     const auto begin = std::chrono::steady_clock::now();
     const NetworkBound found =
