@@ -72,6 +72,8 @@ Case filled(const scree_contact_model& model, uint32_t form, Value value) {
     const scree_property& p = model.properties[k];
     if (!is_input(p, form)) continue;
     for (uint32_t w = 0; w < p.words; ++w) c.words[p.word + w] = value(p);
+    if ((p.type == SCREE_INTEGER || p.type == SCREE_BOOLEAN) && has(p, SCREE_HAS_FALLBACK))
+      c.usual = c.usual && c.words[p.word] == p.fallback;
     c.text += fmt::format("{}{}={:.6g}", c.text.empty() ? "" : " ", p.name, c.words[p.word]);
   }
   return c;

@@ -20,6 +20,7 @@ struct Case {
   double depth = 0;                 ///< m: overlap of a loaded contact
   double stiffness = 0;             ///< N/m, as reported at that overlap
   double dt = 0;                    ///< s: a small share of the contact's own period
+  bool usual = true;                ///< every mode (whole number or switch) is at its default
   std::string text;                 ///< inputs and pieces, for a message
 
   Seen seen() const;                        ///< a contact of these pieces in touch at gap 0
