@@ -90,7 +90,7 @@ std::vector<scree_property> random_table() {
 }
 
 struct Tables {
-  scree_contact_model linear_model{};
+  scree_contact_model linear_model{}, glue_model{};
   scree_wall plane{}, box{};
   scree_generator random{}, file{}, points{};
   scree_process gravity{}, damping{};
@@ -118,6 +118,8 @@ struct Tables {
     linear_model.property_count = static_cast<uint32_t>(linear().size());
     linear_model.forms = forms;
     linear_model.form_count = 2;
+    glue_model = linear_model;
+    glue_model.flags = SCREE_CAN_BOND;
     give(plane.object,
          {property(SCREE_VECTOR, "point", "m", SCREE_REQUIRED), property(SCREE_VECTOR, "normal", "1", SCREE_REQUIRED)});
     give(box.object,
@@ -133,6 +135,7 @@ struct Tables {
     give(csv.object, {});
     give(vtk.object, {words(SCREE_TEXT, "encoding", "raw ascii")});
     list(Kind::contact_model, "linear", &linear_model);
+    list(Kind::contact_model, "glue", &glue_model);
     list(Kind::wall, "plane", &plane);
     list(Kind::wall, "box", &box);
     list(Kind::generator, "random", &random);
