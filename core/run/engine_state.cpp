@@ -75,11 +75,11 @@ void save_ledger(const Engine& engine, ArchiveWriter& out) {
   packer.f64s(&loop.energy.bond, 1);
   packer.u64(loop.wall_motion.size());
   for (const auto& motion : loop.wall_motion) packer.f64s(motion.data(), motion.size());
-  out.put("energy", packer.bytes());
+  out.put("ledger", packer.bytes());
 }
 
 void load_ledger(Engine& engine, Engine::Loop& loop, const ArchiveReader& archive) {
-  Unpacker in(archive, "energy");
+  Unpacker in(archive, "ledger");
   std::array<double, EnergyLedger::saved_words> words{};
   in.f64s(words.data(), words.size());
   engine.ledger.load(words);

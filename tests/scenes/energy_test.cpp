@@ -22,7 +22,7 @@ contacts:
          law + R"(}
 processes:
   pull: {process: gravity, acceleration: [0, 0, -9.81]}
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 )";
 }
 
@@ -40,7 +40,7 @@ contacts:
   - {between: [ball, ball], model: none}
 processes:
   pull: {process: gravity, acceleration: [0, 0, -9.81]}
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 )",
                // Resting in the floor by its weight, so that it does not bounce.
                "x,y,z,radius\n0,0," + digits(0.05 - 4.0 / 3.0 * std::numbers::pi * 1.25e-4 * 2500 * 9.81 / 1e6) +
@@ -89,7 +89,7 @@ balls:
 contacts:
   - {name: glue, between: [balls, balls], model: contact_bond, kn: 1e6, ks: 1e6, cb_tenf: 100, cb_shearf: 1e6}
 processes:
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 stages:
   - bond: [bond: {rule: glue, gap: 1e-9}]
 )",
@@ -124,7 +124,7 @@ contacts:
   - {between: [ball, walls], model: linear, kn: 1e6, ks: 0}
   - {between: [ball, ball], model: none}
 processes:
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 )",
                "x,y,z,radius\n0,0,0.01,0.01\n");
   run.step(1000);  // 0.1 mm
@@ -143,7 +143,7 @@ balls:
 contacts:
   - {name: glue, between: [pair, pair], model: contact_bond, kn: 1e6, ks: 1e6, cb_tenf: .inf, cb_shearf: .inf}
 processes:
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 stages:
   - bond: [bond: {rule: glue}]
 )",
@@ -171,12 +171,13 @@ contacts:
   - {name: soil, between: [ball, floor], model: linear, kn: 1e6, ks: 0}
   - {between: [ball, ball], model: none}
 processes:
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 stages:
   - harder: [set: {contacts.soil.kn: 2e6}]
 )",
                "x,y,z,radius\n0,0,0.0099,0.01\n");
   run.step(3);
+  run.engine().forces();
   run.simulation().edit(run.simulation().scene.stages[0].actions[0]);
   Measure measure("A13 edits", "strain energy k u^2/2 before and after");
   measure.check("work of the edit", run.value("energy.edits"), 5e-3, 1e-12);

@@ -21,7 +21,7 @@ contacts:
   - {name: stone, between: [balls, balls], model: parallel_bond, emod: 1e8, kratio: 2, fric: 0.5, pb_emod: 1e8,
      pb_kratio: 2, pb_ten: 5e5, pb_coh: 4e5}
 processes:
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 stages:
   - cement: [bond: {rule: stone, gap: 1e-6}]
 )";
@@ -102,7 +102,7 @@ balls:
 contacts:
   - {name: stone, between: [balls, balls], model: contact_bond, kn: 1e6, ks: 1e6, fric: 0, cb_tenf: 10, cb_shearf: .inf}
 processes:
-  energy: {process: energy}
+  energy: {process: energy_ledger}
 timestep: 1e-6
 stages:
   - cement: [bond: {rule: stone, gap: 1e-6}]

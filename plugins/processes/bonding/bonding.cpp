@@ -17,7 +17,7 @@ struct Bonding {
     settings.text("rule", &Bonding::rule, "rule whose pairs are bonded; its contact model must make bonds").required();
     settings.number("gap", &Bonding::gap, "m", "largest gap of a pair that is bonded; 0 when absent").at_least(0);
     settings.integer("every", &Bonding::cycles, "1", "cycles from one look to the next; 100 when absent").at_least(1);
-    settings.boolean("again", &Bonding::again, "also pairs whose bond broke before; no when absent");
+    settings.boolean("again", &Bonding::again, "also pairs whose bond broke before; false when absent");
   }
   void prepare(const Host& host) { host.bond(rule, gap, again); }
   void step(Step& step) {
@@ -27,4 +27,4 @@ struct Bonding {
 
 }  // namespace
 
-SCREE_PLUGIN(scree::process<Bonding>("bond", "1.0.0", "bonds pairs of a rule as they come near"))
+SCREE_PLUGIN(scree::process<Bonding>("bonding", "1.0.0", "bonds pairs of a rule as they come near"))
