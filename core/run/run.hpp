@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct RunOptions {
   double time_limit = 0;                  ///< s of wall time, 0: none; then exit 75, resumable
   double patience = 0;                    ///< s that a cycle may take at least before it counts as endless; 0: a minute
   bool allow_plugin_change = false;       ///< resume although a plug-in is not the one that was saved with
+  std::function<void(Simulation&)> at_end;  ///< sees the simulation when all stages are over
   std::vector<std::string> include_dirs;  ///< resume: where the scene finds files besides its own folder
 };
 
@@ -35,6 +37,7 @@ struct RunResult {
   Exit code = Exit::done;
   Summary summary;
   std::string folder;
+  double cycle_seconds = 0;  ///< of wall time, of the cycles alone
 };
 
 /// A scene brought to where its stages begin: set up, or loaded from the state that it starts from.
