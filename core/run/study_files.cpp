@@ -47,7 +47,7 @@ std::string quoted(const std::string& text) {
 
 std::string number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
 
-std::string error_text(const StudyNorm& norm, const StudyNorm::Entry& entry) {
+std::string error_text(const StudyNorm::Entry& entry) {
   if (!entry.error) return "-";
   return fmt::format("{:.2e}{}", *entry.error, entry.resolved ? "" : " (not resolved)");
 }
@@ -73,7 +73,7 @@ std::string points_table(const Study& study) {
     else
       out += fmt::format(" {:.4g} | {} | {} | {:.3g} ({:.3g} to {:.3g}) |", cost.run->step, cost.run->cycles,
                          cost.run->contact_updates, cost.wall, cost.least, cost.most);
-    for (const StudyNorm& norm : study.norms) out += " " + error_text(norm, norm.entries[k]) + " |";
+    for (const StudyNorm& norm : study.norms) out += " " + error_text(norm.entries[k]) + " |";
     out += "\n";
     if (const std::string trouble = point.trouble(); !trouble.empty()) out += "| " + point.name + " | " + trouble + " |\n";
   }

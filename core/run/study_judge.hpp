@@ -1,6 +1,7 @@
 #pragma once
 #include "core/run/study.hpp"
 #include "core/run/study_flight.hpp"
+#include "core/world/cell.hpp"
 
 namespace scree::core {
 
