@@ -48,7 +48,8 @@ Variation variation(const std::string& text) {
                                    ": write it as --vary key=value,value, as in --vary "
                                    "processes.damping.factor=0.35,0.7");
   if (out.key == "timestep")
-    throw Refusal(Exit::usage, "--vary " + text + ": the timestep is what a study varies anyhow; --rungs says how often");
+    throw Refusal(Exit::usage,
+                  "--vary " + text + ": the timestep is what a study varies anyhow; --rungs says how often");
   return out;
 }
 
@@ -81,7 +82,8 @@ struct StudyFlags {
         ->type_name("FORMULA")
         ->allow_extra_args(false);
     app.add_option("-j,--threads", threads, "threads; any number gives the same bits")->type_name("N");
-    app.add_option("--isa", isa, "instruction set: baseline, v3 or v4; by default the best there is")->type_name("NAME");
+    app.add_option("--isa", isa, "instruction set: baseline, v3 or v4; by default the best there is")
+        ->type_name("NAME");
     app.add_option("--patience", patience, "what one cycle may take before it counts as endless; by default 60 s")
         ->type_name("TIME");
     common.declare(app);
@@ -135,7 +137,8 @@ Deed declare_study(CLI::App& app) {
     const auto catalogue = flags->common.catalogue();
     install_signal_handlers();
     const Study study = study_scene(options, *catalogue);
-    if (study.code != Exit::done) log::info("stopped by a signal; the points that are finished are in {}", study.folder);
+    if (study.code != Exit::done)
+      log::info("stopped by a signal; the points that are finished are in {}", study.folder);
     print(result_text(study));
     return study.code;
   };

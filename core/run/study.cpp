@@ -21,9 +21,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool stopped(Exit code) {
-  return code == Exit::interrupted || code == Exit::terminated || code == Exit::time_limit;
-}
+bool stopped(Exit code) { return code == Exit::interrupted || code == Exit::terminated || code == Exit::time_limit; }
+
+/// Keeps log lines of a run off the terminal while it lives; its log file has them.
+class Hush {
+ public:
+  explicit Hush(const log::Settings& shown) : shown_(shown) {
+    log::Settings silent = shown;
+    silent.silent = true;
+    log::open(silent);
+  }
+  ~Hush() { log::open(shown_); }
+  Hush(const Hush&) = delete;
+  Hush& operator=(const Hush&) = delete;
+
+ private:
+  log::Settings shown_;
+};
 
 /// Goes through the points of a study and keeps its files up to date.
 class Studying {
@@ -34,12 +48,14 @@ class Studying {
     study_.folder = folder_.path();
     cell_from(scene_);
     for (const Expect& expect : scene_.expect) add_quantity(expect.quantity->text());
+    declared_ = study_.quantities.size();
     for (const std::string& name : options.quantities) add_quantity(name);
     if (study_.quantities.empty())
       for (const Quantity& quantity : scene_.quantities) add_quantity(quantity.name);
     if (study_.quantities.empty())
       study_.remarks.push_back(
-          "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories are compared.");
+          "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories are "
+          "compared.");
     study_.remarks.push_back("The energy residual is left out: no quantity of the scene keeps an energy account.");
   }
 
@@ -93,7 +109,7 @@ class Studying {
     if (seed) change.set.emplace_back("seed", std::to_string(*seed));
     Scene scene = changed_scene(options_.read, catalogue_, change, cycle_length_);
     // What is measured beside the expectations is read where they are.
-    for (std::size_t k = scene.expect.size(); k < study_.quantities.size(); ++k) {
+    for (std::size_t k = declared_; k < study_.quantities.size(); ++k) {
       Expect more;
       more.text = more.source = study_.quantities[k];
       more.quantity = std::make_shared<Formula>(study_.quantities[k], scene.vars, Place{"--quantity", 0, 0});
@@ -114,7 +130,7 @@ class Studying {
     automatic.kind = StudyPoint::Kind::automatic;
     automatic.name = "automatic";
     first_step(automatic);
-    options_.note(fmt::format("automatic step: a whole run with it"));
+    options_.note("automatic step: a whole run with it");
     run_full(automatic);
     const StudyRun& run = automatic.runs[0];
     if (stopped(run.code)) {
@@ -123,8 +139,10 @@ class Studying {
       return;
     }
     if (run.values.empty() && !study_.quantities.empty())
-      throw Refusal(run.code, "the scene does not come to its end with the automatic step, so there is nothing to "
-                              "compare with: " + run.message);
+      throw Refusal(run.code,
+                    "the scene does not come to its end with the automatic step, so there is nothing to "
+                    "compare with: " +
+                        run.message);
     study_.automatic = std::min(study_.automatic, run.step);
     find_short(automatic, run.model_time);
     study_.points.push_back(automatic);
@@ -133,21 +151,23 @@ class Studying {
 
   // The step of the first cycle, and the scene's own, which lengths in cycles are meant for.
   void first_step(const StudyPoint& automatic) {
-    log::open(silent());
-    const auto simulation = begin_scene(scene_for(automatic), catalogue_, quiet_options());
-    stand_before_first_cycle(*simulation);
-    log::open(options_.log);
-    study_.automatic = simulation->engine.clock.dt;
+    {
+      const Hush hush(options_.log);
+      const auto simulation = begin_scene(scene_for(automatic), catalogue_, quiet_options());
+      stand_before_first_cycle(*simulation);
+      study_.automatic = simulation->engine.clock.dt;
+    }
     if (!(study_.automatic > 0))
-      throw Refusal(Exit::scene, scene_.file + ": error: the scene has no ball at its first cycle, so it has no step "
-                                               "that could be studied");
+      throw Refusal(Exit::scene, scene_.file +
+                                     ": error: the scene has no ball at its first cycle, so it has no step "
+                                     "that could be studied");
     cycle_length_ = scene_.timestep.value_or(study_.automatic);
     for (const Stage& stage : scene_.stages)
       for (const Action& action : stage.actions)
         if (const auto* what = std::get_if<RunAction>(&action.what); what != nullptr && what->length.cycles) {
-          study_.remarks.push_back(
-              fmt::format("Lengths that the scene gives in cycles were run as the time of that many cycles of {:.6g} s.",
-                          cycle_length_));
+          study_.remarks.push_back(fmt::format(
+              "Lengths that the scene gives in cycles were run as the time of that many cycles of {:.6g} s.",
+              cycle_length_));
           return;
         }
   }
@@ -157,15 +177,16 @@ class Studying {
     double longest = whole;
     if (const RunAction& run = first_run(one); run.length.time) longest = std::min(longest, *run.length.time);
     options_.note("short trajectory: how long can runs be compared ball by ball?");
-    log::open(silent());
-    horizon_ = find_horizon(std::move(one), std::move(twin), catalogue_, quiet_options(), longest);
-    log::open(options_.log);
+    {
+      const Hush hush(options_.log);
+      horizon_ = find_horizon(one, std::move(twin), catalogue_, quiet_options(), longest);
+    }
     study_.horizon = horizon_.time;
     study_.horizon_reason = horizon_.reason;
     if (horizon_.time < 4 * study_.automatic) {
-      study_.remarks.push_back(fmt::format(
-          "Trajectories are not compared: after {:.3g} s {}, which is less than four steps.", horizon_.time,
-          horizon_.reason));
+      study_.remarks.push_back(
+          fmt::format("Trajectories are not compared: after {:.3g} s {}, which is less than four steps.", horizon_.time,
+                      horizon_.reason));
       study_.horizon = 0;
     }
   }
@@ -194,7 +215,8 @@ class Studying {
     if (horizon_.usual_step > 0)
       add_step(StudyPoint::Kind::usual, "0.8 sqrt(m/k)", aligned_step(sample, 0.8 * horizon_.usual_step));
     else
-      study_.remarks.push_back("The usual step 0.8 sqrt(m/k) is left out: nothing touched within the short trajectory.");
+      study_.remarks.push_back(
+          "The usual step 0.8 sqrt(m/k) is left out: nothing touched within the short trajectory.");
     if (scene_.timestep) add_step(StudyPoint::Kind::own, "own step", *scene_.timestep);
     for (const Variation& variation : options_.vary)
       for (const std::string& value : variation.values) {
@@ -204,12 +226,6 @@ class Studying {
         point.set.emplace_back(variation.key, value);
         study_.points.push_back(point);
       }
-  }
-
-  log::Settings silent() const {
-    log::Settings settings = options_.log;
-    settings.silent = true;
-    return settings;
   }
 
   void run_point(StudyPoint& point) {
@@ -223,10 +239,8 @@ class Studying {
       StudyPoint flying = point;
       flying.step = study_.horizon / cycles;
       flying.kind = point.kind == StudyPoint::Kind::own ? StudyPoint::Kind::usual : point.kind;
-      log::open(silent());
-      point.flight =
-          fly(scene_for(flying), catalogue_, quiet_options(), static_cast<uint64_t>(cycles), point.flown);
-      log::open(options_.log);
+      const Hush hush(options_.log);
+      point.flight = fly(scene_for(flying), catalogue_, quiet_options(), static_cast<uint64_t>(cycles), point.flown);
       if (stopped(point.flown.code)) study_.code = point.flown.code;
     }
   }
@@ -247,7 +261,6 @@ class Studying {
       }
       StudyRun& run = point.runs.back();
       run.seed = seed;
-      log::open(options_.log);
       if (run.values.empty()) return;
       if (options_.seeds == 0 && run.state_hash != point.runs[0].state_hash)
         study_.remarks.push_back("Two runs of the point '" + point.name +
@@ -268,7 +281,7 @@ class Studying {
       out.contact_updates = simulation.engine.contact_updates();
       out.ball_steps = simulation.engine.balls.size() * simulation.engine.clock.cycle;
     };
-    log::open(silent());
+    const Hush hush(options_.log);
     const RunResult result = run_scene(std::move(scene), catalogue_, run);
     out.code = result.code;
     out.message = result.summary.message;
@@ -337,6 +350,7 @@ class Studying {
   Horizon horizon_;
   PeriodicCell cell_;
   std::vector<ExpectationResult> expected_;
+  std::size_t declared_ = 0;  ///< how many of the quantities are those of `expect`
   double cycle_length_ = 0;
 };
 

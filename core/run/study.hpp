@@ -73,16 +73,16 @@ struct StudyNorm {
     bool resolved = false;        ///< at least three times the uncertainty of the reference
   };
   std::string name;
-  bool relative = true;              ///< errors are shares of the reference; otherwise in its own unit
-  bool trajectory = false;           ///< over all balls at the horizon
-  std::optional<double> reference;   ///< of a quantity
-  double uncertainty = 0;            ///< of the reference, as errors are
-  std::string method;                ///< where the reference comes from
+  bool relative = true;                    ///< errors are shares of the reference; otherwise in its own unit
+  bool trajectory = false;                 ///< over all balls at the horizon
+  std::optional<double> reference;         ///< of a quantity
+  double uncertainty = 0;                  ///< of the reference, as errors are
+  std::string method;                      ///< where the reference comes from
   double least_order = 2, most_order = 2;  ///< what the scheme promises here
-  std::optional<double> order;       ///< fitted
-  std::string fit;                   ///< how, or why there is none
-  bool odd = false;                  ///< the fitted order is off by more than a half
-  std::vector<Entry> entries;        ///< one for each point
+  std::optional<double> order;             ///< fitted
+  std::string fit;                         ///< how, or why there is none
+  bool odd = false;                        ///< the fitted order is off by more than a half
+  std::vector<Entry> entries;              ///< one for each point
 };
 
 /// A quantity at one point over all seeds, against the finest step with the same seeds.
@@ -97,8 +97,8 @@ struct StudyBias {
 struct Study {
   Exit code = Exit::done;
   std::string scene, folder;
-  double automatic = 0;       ///< s, the least step that the automatic choice took
-  double horizon = 0;         ///< s, length of the short trajectory; 0: there is none
+  double automatic = 0;  ///< s, the least step that the automatic choice took
+  double horizon = 0;    ///< s, length of the short trajectory; 0: there is none
   std::string horizon_reason;
   std::vector<std::string> quantities;
   std::vector<StudyPoint> points;

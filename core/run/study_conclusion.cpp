@@ -61,9 +61,10 @@ std::string conclusion(const Study& study) {
   }
   for (const StudyBias& bias : study.biases)
     if (bias.point == "automatic/1" && bias.spread > 0)
-      out += fmt::format("; {} differs from seed to seed by {:.2g} (standard deviation), {}", bias.quantity, bias.spread,
-                         bias.converged ? "so that a smaller step gains nothing"
-                                        : "and this study does not show that the step is small enough beside it");
+      out +=
+          fmt::format("; {} differs from seed to seed by {:.2g} (standard deviation), {}", bias.quantity, bias.spread,
+                      bias.converged ? "so that a smaller step gains nothing"
+                                     : "and this study does not show that the step is small enough beside it");
   return out + ".";
 }
 

@@ -75,13 +75,15 @@ std::string points_table(const Study& study) {
                          cost.run->contact_updates, cost.wall, cost.least, cost.most);
     for (const StudyNorm& norm : study.norms) out += " " + error_text(norm.entries[k]) + " |";
     out += "\n";
-    if (const std::string trouble = point.trouble(); !trouble.empty()) out += "| " + point.name + " | " + trouble + " |\n";
+    if (const std::string trouble = point.trouble(); !trouble.empty())
+      out += "| " + point.name + " | " + trouble + " |\n";
   }
   return out;
 }
 
 std::string norms_table(const Study& study) {
-  std::string out = "| error | reference | its uncertainty | from | order | expected | how |\n|---|---|---|---|---|---|---|\n";
+  std::string out =
+      "| error | reference | its uncertainty | from | order | expected | how |\n|---|---|---|---|---|---|---|\n";
   for (const StudyNorm& norm : study.norms) {
     const std::string expected = norm.least_order == norm.most_order
                                      ? fmt::format("{}", norm.most_order)
@@ -97,12 +99,15 @@ std::string norms_table(const Study& study) {
 std::string seeds_table(const Study& study) {
   if (study.biases.empty()) return "";
   std::string out =
-      "\nOver seeds, against the finest step with the same seeds (95 % t-interval of the paired differences; converged: "
+      "\nOver seeds, against the finest step with the same seeds (95 % t-interval of the paired differences; "
+      "converged: "
       "bias and interval within 1 % of the mean or half the spread):\n\n"
-      "| quantity | point | bias | interval | spread over seeds | mean | pairs | |\n|---|---|---|---|---|---|---|---|\n";
+      "| quantity | point | bias | interval | spread over seeds | mean | pairs | "
+      "|\n|---|---|---|---|---|---|---|---|\n";
   for (const StudyBias& bias : study.biases)
-    out += fmt::format("| {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.6g} | {} | {} |\n", bias.quantity, bias.point, bias.bias,
-                       bias.interval, bias.spread, bias.mean, bias.pairs, bias.converged ? "converged" : "not shown");
+    out +=
+        fmt::format("| {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.6g} | {} | {} |\n", bias.quantity, bias.point, bias.bias,
+                    bias.interval, bias.spread, bias.mean, bias.pairs, bias.converged ? "converged" : "not shown");
   return out;
 }
 

@@ -8,14 +8,14 @@ namespace scree::core {
 
 /// How long two runs of the same scene can be compared ball by ball.
 struct Horizon {
-  double time = 0;          ///< s
-  std::string reason;       ///< what ends it
-  double usual_step = 0;    ///< s, the least sqrt(m/k) over balls and axes that was met; 0: nothing touched
-  double first_step = 0;    ///< s, the step of the first cycle
-  bool dashpots = false;    ///< contacts have dashpots, or balls are damped
-  bool tangential = false;  ///< a rule has a tangential part, so contacts can slide
-  double radius = 0;        ///< m, the median
-  std::vector<double> mass;  ///< in order of ids, kg
+  double time = 0;            ///< s
+  std::string reason;         ///< what ends it
+  double usual_step = 0;      ///< s, the least sqrt(m/k) over balls and axes that was met; 0: nothing touched
+  double first_step = 0;      ///< s, the step of the first cycle
+  bool dashpots = false;      ///< contacts have dashpots, or balls are damped
+  bool tangential = false;    ///< a rule has a tangential part, so contacts can slide
+  double radius = 0;          ///< m, the median
+  std::vector<double> mass;   ///< in order of ids, kg
   std::vector<double> start;  ///< positions before the first cycle, in order of ids, m
 };
 
@@ -24,7 +24,8 @@ struct Horizon {
 /// whichever comes first. The scene has its own step or the automatic one.
 Horizon find_horizon(const Scene& scene, Scene twin, Catalogue& catalogue, const RunOptions& options, double longest);
 
-/// The scene from its first cycle over a time that its fixed step divides: positions at the end. `run` says how it went.
+/// The scene from its first cycle over a time that its fixed step divides: positions at the end. `run` says how it
+/// went.
 std::vector<double> fly(Scene scene, Catalogue& catalogue, const RunOptions& options, uint64_t cycles, StudyRun& run);
 
 }  // namespace scree::core

@@ -65,7 +65,8 @@ Values reference(const Study& study, const Measured& m, const std::vector<std::s
   }
   const double ratio = std::pow(study.points[finest[1]].step / study.points[finest[0]].step, *order);
   for (std::size_t k = 0; k < out.size(); ++k) out[k] += (out[k] - next[k]) / (ratio - 1);
-  norm.method = fmt::format("Richardson's extrapolation of the two finest steps with the order {:.2f} they show", *order);
+  norm.method =
+      fmt::format("Richardson's extrapolation of the two finest steps with the order {:.2f} they show", *order);
   return out;
 }
 
@@ -187,10 +188,9 @@ void judge_seeds(Study& study, std::size_t index) {
         differences.push_back(run.values[index] - found->second);
     if (differences.size() < 2) continue;
     const Mean bias = mean_of(differences);
-    StudyBias out{study.quantities[index], point.name, bias.mean, bias.interval,
+    StudyBias out{study.quantities[index], point.name, bias.mean,         bias.interval,
                   over.deviation,          over.mean,  differences.size()};
-    out.converged =
-        std::fabs(out.bias) + out.interval <= std::max(0.01 * std::fabs(out.mean), 0.5 * out.spread);
+    out.converged = std::fabs(out.bias) + out.interval <= std::max(0.01 * std::fabs(out.mean), 0.5 * out.spread);
     study.biases.push_back(out);
   }
 }

@@ -5,8 +5,8 @@
 
 namespace scree::core {
 
-/// Errors, references and orders of all points so far, from what their runs left. `expected` are the expectations of the
-/// scene: where one has a value it is the reference, otherwise the two finest rungs are extrapolated.
+/// Errors, references and orders of all points so far, from what their runs left. `expected` are the expectations of
+/// the scene: where one has a value it is the reference, otherwise the two finest rungs are extrapolated.
 void judge(Study& study, const Horizon& horizon, const std::vector<ExpectationResult>& expected,
            const PeriodicCell& cell);
 

@@ -70,8 +70,9 @@ double aligned_step(const Scene& scene, double step) {
       const auto* run = std::get_if<RunAction>(&action.what);
       // With a test the length is only the latest end.
       if (run == nullptr || !run->length.time || !run->until.empty()) continue;
-      measure = measure == 0 ? *run->length.time : common_measure(std::max(measure, *run->length.time),
-                                                                 std::min(measure, *run->length.time), 4 * step);
+      measure = measure == 0 ? *run->length.time
+                             : common_measure(std::max(measure, *run->length.time),
+                                              std::min(measure, *run->length.time), 4 * step);
       if (measure == 0) return step;
     }
   return measure < 4 * step ? step : measure / std::ceil(measure / step * (1 - 1e-12));

@@ -9,7 +9,7 @@ namespace scree::core {
 
 /// What a run of a study changes in the scene.
 struct StudyChange {
-  double step = 0;  ///< s; 0: automatic, unless `own`
+  double step = 0;      ///< s; 0: automatic, unless `own`
   bool own = false;     ///< the scene's own step
   bool unsafe = false;  ///< the step may be above the stable limit
   std::vector<std::pair<std::string, std::string>> set;

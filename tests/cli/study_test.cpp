@@ -29,7 +29,7 @@ std::string oscillator(const std::string& more = "", const std::string& law = "k
          "}\n"
          "  - {between: [ball, ball], model: none}\n"
          "stages:\n"
-         "  - swing: [run: 1 ms]\n" +
+         "  - swing: [run: 3 ms]\n" +
          more;
 }
 
@@ -65,7 +65,7 @@ std::string without_wall(const std::string& table) {
 TEST_CASE("a smooth scene converges with order 2, in trajectory and quantity", "[study]") {
   const Folder at;
   const ProgramEnd end =
-      at.study(oscillator("expect:\n  - {quantity: balls.1.position.z, equals: \"0.2/w*sin(w*1e-3)\", within: 50 %,\n"
+      at.study(oscillator("expect:\n  - {quantity: balls.1.position.z, equals: \"0.2/w*sin(w*3e-3)\", within: 50 %,\n"
                           "     source: harmonic motion}\n"));
   INFO(end.err << end.out);
   REQUIRE(end.code == 0);
@@ -105,7 +105,7 @@ TEST_CASE("a step that fails is a result and the study goes on", "[study]") {
   const Folder at;
   // Twice the automatic step is above the stable limit; over many periods the ball leaves or is lost.
   std::string text = oscillator("expect: [{quantity: balls.1.position.z, between: [-1, 1]}]\n");
-  text.replace(text.find("run: 1 ms"), 9, "run: 100 ms");
+  text.replace(text.find("run: 3 ms"), 9, "run: 100 ms");
   const ProgramEnd end = at.study(text, {"--quick"});
   INFO(end.err << end.out);
   CHECK(end.code == 0);
@@ -118,12 +118,12 @@ TEST_CASE("a step that fails is a result and the study goes on", "[study]") {
 TEST_CASE("scenes that cannot be studied are refused with the reason", "[study]") {
   const Folder at;
   std::string still = oscillator();
-  still.replace(still.find("[run: 1 ms]"), 11, "[]");
+  still.replace(still.find("[run: 3 ms]"), 11, "[]");
   const ProgramEnd nothing = at.study(still);
   CHECK(nothing.code == 3);
   CHECK(has(nothing.err, "no stage runs a cycle"));
   std::string own = oscillator();
-  own.replace(own.find("[run: 1 ms]"), 11, "[set: {timestep: 1e-6}, run: 1 ms]");
+  own.replace(own.find("[run: 3 ms]"), 11, "[set: {timestep: 1e-6}, run: 3 ms]");
   const ProgramEnd sets = at.study(own);
   CHECK(sets.code == 3);
   CHECK(has(sets.err, "sets the timestep itself"));
