@@ -135,7 +135,8 @@ struct Log {
     const bool plain = no_colour != nullptr && *no_colour != '\0';
     terminal->set_colour(settings.colour && !plain && terminal_on_stderr());
     const auto shown = settings.verbose ? spdlog::level::debug : spdlog::level::info;
-    terminal->set_level(settings.quiet ? spdlog::level::warn : shown);
+    const auto on_terminal = settings.quiet ? spdlog::level::warn : shown;
+    terminal->set_level(settings.silent ? spdlog::level::off : on_terminal);
     file->set_level(shown);
   }
 };

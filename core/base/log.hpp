@@ -13,6 +13,7 @@ enum class Level { debug, info, warning, error };
 
 struct Settings {
   bool quiet = false;    ///< stderr shows warnings and errors only
+  bool silent = false;   ///< stderr shows nothing: the lines are for the file alone
   bool verbose = false;  ///< debug lines too, on stderr and in the file
   bool colour = true;    ///< false for --no-color; NO_COLOR and a stderr that is no terminal say the same
 };

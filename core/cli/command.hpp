@@ -32,6 +32,7 @@ Deed declare_show(CLI::App& app);
 Deed declare_vet(CLI::App& app);
 Deed declare_new(CLI::App& app);
 Deed declare_schema(CLI::App& app);
+Deed declare_study(CLI::App& app);
 Deed declare_demo(CLI::App& app);
 
 }  // namespace scree::core

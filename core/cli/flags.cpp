@@ -49,13 +49,15 @@ void CommonFlags::declare(CLI::App& app) {
   app.add_flag("--no-color", no_color, "plain text");
 }
 
-void CommonFlags::open_log() const {
+log::Settings CommonFlags::log_settings() const {
   log::Settings settings;
   settings.quiet = quiet;
   settings.verbose = verbose;
   settings.colour = !no_color;
-  log::open(settings);
+  return settings;
 }
+
+void CommonFlags::open_log() const { log::open(log_settings()); }
 
 std::unique_ptr<Catalogue> CommonFlags::catalogue() const {
   auto out = std::make_unique<Catalogue>(SearchPath::standard({plugins.begin(), plugins.end()}));
@@ -77,7 +79,7 @@ void SceneFlags::declare(CLI::App& app, bool with_file) {
       ->allow_extra_args(false);
 }
 
-Scene SceneFlags::read(Catalogue& catalogue) const {
+ReadOptions SceneFlags::options() const {
   ReadOptions options;
   options.file = file;
   for (const std::string& text : set) {
@@ -87,8 +89,10 @@ Scene SceneFlags::read(Catalogue& catalogue) const {
     options.set.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   options.include_dirs = installed_configs();
-  return read_scene(options, catalogue);
+  return options;
 }
+
+Scene SceneFlags::read(Catalogue& catalogue) const { return read_scene(options(), catalogue); }
 
 void RunFlags::declare(CLI::App& app) {
   app.add_option("-j,--threads", threads, "threads; any number gives the same bits")->type_name("N");

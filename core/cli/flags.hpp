@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/log.hpp"
 #include "core/plugin/catalogue.hpp"
 #include "core/run/run.hpp"
 #include "core/scene/scene.hpp"
@@ -21,6 +22,7 @@ struct CommonFlags {
   bool quiet = false, verbose = false, no_color = false;
 
   void declare(CLI::App& app);
+  log::Settings log_settings() const;
   void open_log() const;
   std::unique_ptr<Catalogue> catalogue() const;  ///< its warnings go to stderr
 };
@@ -31,6 +33,7 @@ struct SceneFlags {
   std::vector<std::string> set;
 
   void declare(CLI::App& app, bool with_file);
+  ReadOptions options() const;  ///< refuses a --set without a key
   Scene read(Catalogue& catalogue) const;
 };
 

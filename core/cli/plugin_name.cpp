@@ -32,12 +32,12 @@ bool is_keyword(const std::string& word) {
 /// Types of the namespace that plug-ins work in: a struct of such a name would hide them.
 bool is_type_of_the_sdk(const std::string& name) {
   static const std::set<std::string> names = {
-      "Ball",       "CellView",       "Columns",       "Contact",        "Described", "Description", "Effect",
-      "Energies",   "Files",          "Force",         "Host",           "Inertia",   "Mass",        "Mix",
-      "Moment",     "MomentResponse", "NormalContact", "NormalResponse", "Outline",   "Pair",        "Position",
-      "Properties", "Property",       "Radius",        "Response",       "RowCell",   "RowFunction", "Setting",
-      "Settings",   "Sink",           "Spin",          "SpinContact",    "State",     "Step",        "Stiffness",
-      "Stopped",    "Touches",        "Vec3",          "Velocity",       "Wall"};
+      "Ball",         "CellView",      "Columns",    "Contact",        "Described",     "Description",    "Effect",
+      "GluedSprings", "LinearSprings", "Energies",   "Files",          "Force",         "Host",           "Inertia",
+      "Mass",         "Mix",           "Moment",     "MomentResponse", "NormalContact", "NormalResponse", "Outline",
+      "Pair",         "Position",      "Properties", "Property",       "Radius",        "Response",       "RowCell",
+      "RowFunction",  "Setting",       "Settings",   "Sink",           "Spin",          "SpinContact",    "State",
+      "Step",         "Stiffness",     "Stopped",    "Touches",        "Vec3",          "Velocity",       "Wall"};
   return names.contains(name);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,13 +22,14 @@ struct RunOptions {
   bool quiet = false, colour = true;
   unsigned threads = 0;  ///< 0: as many as cores, but not more than blocks of balls
   Isa isa = detect_isa();
-  std::optional<uint64_t> cycles;         ///< stop after this many cycles of this call
-  std::string stage;                      ///< stop after this stage; "": run all
-  std::string from;                       ///< a saved state to begin from instead of the scene's own start
-  double time_limit = 0;                  ///< s of wall time, 0: none; then exit 75, resumable
-  double patience = 0;                    ///< s that a cycle may take at least before it counts as endless; 0: a minute
-  bool allow_plugin_change = false;       ///< resume although a plug-in is not the one that was saved with
-  std::vector<std::string> include_dirs;  ///< resume: where the scene finds files besides its own folder
+  std::optional<uint64_t> cycles;    ///< stop after this many cycles of this call
+  std::string stage;                 ///< stop after this stage; "": run all
+  std::string from;                  ///< a saved state to begin from instead of the scene's own start
+  double time_limit = 0;             ///< s of wall time, 0: none; then exit 75, resumable
+  double patience = 0;               ///< s that a cycle may take at least before it counts as endless; 0: a minute
+  bool allow_plugin_change = false;  ///< resume although a plug-in is not the one that was saved with
+  std::function<void(Simulation&)> at_end;  ///< sees the simulation when all stages are over
+  std::vector<std::string> include_dirs;    ///< resume: where the scene finds files besides its own folder
 };
 
 /// What a run left behind, for the terminal.
@@ -35,6 +37,7 @@ struct RunResult {
   Exit code = Exit::done;
   Summary summary;
   std::string folder;
+  double cycle_seconds = 0;  ///< of wall time, of the cycles alone
 };
 
 /// A scene brought to where its stages begin: set up, or loaded from the state that it starts from.

@@ -217,6 +217,7 @@ void Session::finish() {
   report_overlaps();
   expectations_ = measured_expectations(simulation_->scene, quantities_);
   for (const auto& recorder : recorders_) recorder->finish();
+  if (options_.at_end) options_.at_end(*simulation_);
   for (const ExpectationResult& result : expectations_) {
     if (result.passed) continue;
     ended_ = Exit::expectation;
@@ -318,7 +319,7 @@ RunResult Session::run() {
   }
   const bool resumable = ended_ == Exit::time_limit || ended_ == Exit::interrupted || ended_ == Exit::terminated;
   if (!message_.empty()) log::write(resumable ? log::Level::info : log::Level::error, message_);
-  RunResult result{ended_, summary(), folder_.path()};
+  RunResult result{ended_, summary(), folder_.path(), loop_seconds_};
   if (const int code = write_summary(folder_.file("summary.json"), result.summary); code != 0) {
     log::error("cannot write {}: {}", folder_.file("summary.json"), errno_text(code));
     result.code = result.summary.exit_code = Exit::io;

@@ -1,0 +1,236 @@
+#include "core/run/study_files.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <spdlog/fmt/fmt.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "core/base/file.hpp"
+#include "core/run/study_statistics.hpp"
+
+extern char** environ;
+
+namespace scree::core {
+
+namespace {
+
+const char* kind_word(StudyPoint::Kind kind) {
+  switch (kind) {
+    case StudyPoint::Kind::automatic:
+      return "automatic";
+    case StudyPoint::Kind::ladder:
+      return "ladder";
+    case StudyPoint::Kind::beyond:
+      return "beyond";
+    case StudyPoint::Kind::usual:
+      return "usual";
+    case StudyPoint::Kind::own:
+      return "own";
+    case StudyPoint::Kind::varied:
+      return "varied";
+  }
+  return "";
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + "\"";
+}
+
+std::string number(const std::optional<double>& value) { return value ? fmt::format("{}", *value) : ""; }
+
+std::string error_text(const StudyNorm::Entry& entry) {
+  if (!entry.error) return "-";
+  return fmt::format("{:.2e}{}", *entry.error, entry.resolved ? "" : " (not resolved)");
+}
+
+std::string norm_title(const StudyNorm& norm) {
+  if (norm.trajectory) return "trajectory / R";
+  return norm.name + (norm.relative ? ", relative" : "");
+}
+
+std::string points_table(const Study& study) {
+  std::string head = "| point | step, s | cycles | contact updates | wall time, s |", line = "|---|---|---|---|---|";
+  for (const StudyNorm& norm : study.norms) {
+    head += " " + norm_title(norm) + " |";
+    line += "---|";
+  }
+  std::string out = head + "\n" + line + "\n";
+  for (std::size_t k = 0; k < study.points.size(); ++k) {
+    const StudyPoint& point = study.points[k];
+    const StudyCost cost = cost_of(point);
+    out += fmt::format("| {} |", point.name);
+    if (cost.run == nullptr)
+      out += " - | - | - | - |";
+    else
+      out += fmt::format(" {:.4g} | {} | {} | {:.3g} ({:.3g} to {:.3g}) |", cost.run->step, cost.run->cycles,
+                         cost.run->contact_updates, cost.wall, cost.least, cost.most);
+    for (const StudyNorm& norm : study.norms) out += " " + error_text(norm.entries[k]) + " |";
+    out += "\n";
+    if (const std::string trouble = point.trouble(); !trouble.empty())
+      out += "| " + point.name + " | " + trouble + " |\n";
+  }
+  return out;
+}
+
+std::string norms_table(const Study& study) {
+  std::string out =
+      "| error | reference | its uncertainty | from | order | expected | how |\n|---|---|---|---|---|---|---|\n";
+  for (const StudyNorm& norm : study.norms) {
+    const std::string expected = norm.least_order == norm.most_order
+                                     ? fmt::format("{}", norm.most_order)
+                                     : fmt::format("{} to {}", norm.least_order, norm.most_order);
+    out += fmt::format("| {} | {} | {:.2g} | {} | {} | {} | {} |\n", norm_title(norm),
+                       norm.reference ? fmt::format("{:.8g}", *norm.reference) : "-", norm.uncertainty, norm.method,
+                       norm.order ? fmt::format("{:.2f}{}", *norm.order, norm.odd ? " **(off)**" : "") : "-", expected,
+                       norm.fit);
+  }
+  return out;
+}
+
+std::string seeds_table(const Study& study) {
+  if (study.biases.empty()) return "";
+  std::string out =
+      "\nOver seeds, against the finest step with the same seeds (95 % t-interval of the paired differences; "
+      "converged: "
+      "bias and interval within 1 % of the mean or half the spread):\n\n"
+      "| quantity | point | bias | interval | spread over seeds | mean | pairs | "
+      "|\n|---|---|---|---|---|---|---|---|\n";
+  for (const StudyBias& bias : study.biases)
+    out +=
+        fmt::format("| {} | {} | {:.3g} | {:.3g} | {:.3g} | {:.6g} | {} | {} |\n", bias.quantity, bias.point, bias.bias,
+                    bias.interval, bias.spread, bias.mean, bias.pairs, bias.converged ? "converged" : "not shown");
+  return out;
+}
+
+}  // namespace
+
+StudyCost cost_of(const StudyPoint& point) {
+  StudyCost cost;
+  std::vector<double> walls;
+  for (const StudyRun& run : point.runs)
+    if (run.cycles > 0) {
+      walls.push_back(run.wall);
+      if (cost.run == nullptr) cost.run = &run;
+    }
+  if (walls.empty() && point.flown.cycles > 0) {
+    walls.push_back(point.flown.wall);
+    cost.run = &point.flown;
+  }
+  if (walls.empty()) return cost;
+  cost.wall = median(walls);
+  cost.least = *std::min_element(walls.begin(), walls.end());
+  cost.most = *std::max_element(walls.begin(), walls.end());
+  return cost;
+}
+
+std::string study_table(const Study& study) {
+  std::string out =
+      "point,kind,step,status,cycles,model_time,ball_steps,contact_updates,norm,value,reference,uncertainty,error,"
+      "resolved,wall_median,wall_least,wall_most\n";
+  for (std::size_t k = 0; k < study.points.size(); ++k) {
+    const StudyPoint& point = study.points[k];
+    const StudyCost cost = cost_of(point);
+    const Exit code = !point.runs.empty() ? point.runs[0].code : point.flown.code;
+    std::string head = quoted(point.name) + "," + kind_word(point.kind) + ",";
+    head += cost.run != nullptr ? number(cost.run->step) : number(point.step);
+    head += "," + (code == Exit::expectation ? status_word(Exit::done) : status_word(code));
+    if (cost.run == nullptr)
+      head += ",,,,";
+    else
+      head += fmt::format(",{},{},{},{}", cost.run->cycles, cost.run->model_time, cost.run->ball_steps,
+                          cost.run->contact_updates);
+    const std::string walls =
+        cost.run == nullptr ? ",,," : fmt::format(",{:.4g},{:.4g},{:.4g}", cost.wall, cost.least, cost.most);
+    bool any = false;
+    for (const StudyNorm& norm : study.norms) {
+      const StudyNorm::Entry& entry = norm.entries[k];
+      if (!entry.error) continue;
+      any = true;
+      out += head + "," + quoted(norm.name) + "," + number(entry.value) + "," + number(norm.reference) + "," +
+             number(norm.uncertainty) + "," + number(entry.error) + (entry.resolved ? ",yes" : ",no") + walls + "\n";
+    }
+    if (!any) out += head + ",,,,,," + walls + "\n";
+  }
+  return out;
+}
+
+std::string study_report(const Study& study) {
+  std::string out = "# Error against run time: " + study.scene + "\n\n" + conclusion(study) + "\n\n";
+  out += fmt::format("The least automatic step was {:.6g} s.", study.automatic);
+  if (study.horizon > 0)
+    out += fmt::format(" Trajectories are compared after {:.6g} s, when {}.", study.horizon, study.horizon_reason);
+  out += "\n\n" + points_table(study) + "\n" + norms_table(study) + seeds_table(study);
+  if (!study.picture.empty()) out += "\n![error against run time](" + study.picture + ")\n";
+  if (!study.remarks.empty()) out += "\n";
+  for (const std::string& remark : study.remarks) out += "* " + remark + "\n";
+  return out;
+}
+
+std::string study_plot(const Study& study) {
+  std::string blocks, plot;
+  for (std::size_t n = 0; n < study.norms.size(); ++n) {
+    const StudyNorm& norm = study.norms[n];
+    // Filled where resolved, hollow where the reference is no better.
+    for (const bool resolved : {true, false}) {
+      std::string rows;
+      for (std::size_t k = 0; k < study.points.size(); ++k) {
+        const StudyNorm::Entry& entry = norm.entries[k];
+        const StudyCost cost = cost_of(study.points[k]);
+        if (!entry.error || *entry.error <= 0 || entry.resolved != resolved || cost.wall <= 0) continue;
+        rows += fmt::format("{} {} {} {} \"{}\"\n", cost.wall, *entry.error, cost.least, cost.most,
+                            study.points[k].kind == StudyPoint::Kind::ladder ? "" : study.points[k].name);
+      }
+      if (rows.empty()) continue;
+      const std::string name = fmt::format("$points{}{}", n, resolved ? "a" : "b");
+      blocks += name + " << EOD\n" + rows + "EOD\n";
+      plot += plot.empty() ? "plot " : ", \\\n     ";
+      plot += fmt::format("{} using 1:2:3:4 with xerrorbars pt {} lc {} {}", name, resolved ? 7 : 6, n + 1,
+                          resolved ? "title '" + norm_title(norm) + "'" : "notitle");
+      plot += fmt::format(", \\\n     {} using 1:2:5 with labels offset 0,0.8 font ',9' notitle", name);
+    }
+  }
+  if (plot.empty()) return "";
+  return "set terminal svg size 800,600 dynamic background 'white'\nset output 'study.svg'\nset logscale xy\n"
+         "set format xy '10^{%T}'\nset xlabel 'wall time, s'\nset ylabel 'error'\nset grid\n"
+         "set key outside below\nset title 'filled: resolved; hollow: below three times the uncertainty of the "
+         "reference' font ',10'\n" +
+         blocks + plot + "\n";
+}
+
+std::string draw(const std::string& folder, const std::string& script) {
+  // The program changes into the folder by itself, so that the script can be run there by hand too.
+  const std::string there = "cd '" + [&] {
+    std::string escaped;
+    for (const char c : folder) {
+      if (c == '\'') escaped += '\'';
+      escaped += c;
+    }
+    return escaped;
+  }() + "'";
+  std::string words[] = {"gnuplot", "-e", there, script};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+  posix_spawn_file_actions_t quiet;
+  posix_spawn_file_actions_init(&quiet);
+  posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&quiet, 2, "/dev/null", O_WRONLY, 0);
+  pid_t child = 0;
+  const int failure = ::posix_spawnp(&child, words[0].c_str(), &quiet, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&quiet);
+  if (failure == ENOENT) return "gnuplot is not installed (Debian: gnuplot-nox)";
+  if (failure != 0) return "gnuplot: " + errno_text(failure);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? "" : "gnuplot failed on " + script;
+}
+
+}  // namespace scree::core
