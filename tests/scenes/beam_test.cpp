@@ -17,7 +17,8 @@ constexpr double radius = 0.1, length = 0.2, modulus = 1e9, step = 1e-4;
 std::string balls(int bonds, double vx, double vz) {
   std::string text = "x,y,z,radius,vx,vy,vz,group\n";
   for (int k = 0; k <= bonds; ++k)
-    text += digits(k * length) + ",0,0,0.1," + (k == bonds ? digits(vx) + ",0," + digits(vz) + ",tip" : "0,0,0,rest") + "\n";
+    text += digits(k * length) + ",0,0,0.1," + (k == bonds ? digits(vx) + ",0," + digits(vz) + ",tip" : "0,0,0,rest") +
+            "\n";
   return text;
 }
 
@@ -75,7 +76,8 @@ TEST_CASE("P-11: bending and axial frequencies of a bonded cantilever") {
     for (std::size_t mode = 0; mode < 3; ++mode)
       measure.check("bending frequency " + std::to_string(mode + 1) + name, peak(tip.z, step, one.bending[mode]),
                     one.bending[mode], 1e-3 * one.bending[mode]);
-    if (one.axial > 0) measure.check("axial frequency" + name, peak(tip.x, step, one.axial), one.axial, 1e-3 * one.axial);
+    if (one.axial > 0)
+      measure.check("axial frequency" + name, peak(tip.x, step, one.axial), one.axial, 1e-3 * one.axial);
   }
 }
 
@@ -85,12 +87,13 @@ TEST_CASE("P-11: an axial load lowers the bending frequency by sqrt(1 - P/Pcr)")
   const double buckling = std::numbers::pi * std::numbers::pi * modulus * inertia / (4 * span * span);
   Measure measure("P-11, column", "f(P) = f(0) sqrt(1 - P/Pcr), Pcr = pi^2 E I/(4 L^2) (Euler 1757)");
   for (const double share : {0.3, -0.5}) {
-    SceneRun run(beam("processes:\n  damping: {process: local_damping, factor: 0.7}\nstages:\n"
-                      "  - load: [bond: {rule: beam, gap: 1e-9}, fix: {balls: beam, where: \"x < 0.05\"}, apply: {balls: "
-                      "beam.tip, force: [" +
-                      digits(-share * buckling) +
-                      ", 0, 0]}]\n  - swing: [delete: {processes: damping}, set: {balls.beam.tip.velocity: [0, 0, 1e-4]}]\n"),
-                 balls(bonds, 0, 0));
+    SceneRun run(
+        beam("processes:\n  damping: {process: local_damping, factor: 0.7}\nstages:\n"
+             "  - load: [bond: {rule: beam, gap: 1e-9}, fix: {balls: beam, where: \"x < 0.05\"}, apply: {balls: "
+             "beam.tip, force: [" +
+             digits(-share * buckling) +
+             ", 0, 0]}]\n  - swing: [delete: {processes: damping}, set: {balls.beam.tip.velocity: [0, 0, 1e-4]}]\n"),
+        balls(bonds, 0, 0));
     run.engine().sums_wanted = run.engine().report_wanted = false;
     act(run, 0);
     run.step(5000);
@@ -98,6 +101,7 @@ TEST_CASE("P-11: an axial load lowers the bending frequency by sqrt(1 - P/Pcr)")
     act(run, 1);
     const Record tip(run, bonds, 100000);
     const double expected = 5.48527 * std::sqrt(1 - share);
-    measure.check("bending frequency at P/Pcr = " + digits(share) + ", Hz", peak(tip.z, step, expected), expected, 0.02 * expected);
+    measure.check("bending frequency at P/Pcr = " + digits(share) + ", Hz", peak(tip.z, step, expected), expected,
+                  0.02 * expected);
   }
 }

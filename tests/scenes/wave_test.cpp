@@ -20,8 +20,8 @@ const double speed = spacing * std::sqrt(stiffness / mass);
 std::string ring(int count, double wavelength) {
   std::string text = "x,y,z,radius,vx,vy,vz\n";
   for (int k = 0; k < count; ++k)
-    text += digits(k + 0.5) + ",0,0,0.5," +
-            digits(1e-3 * std::sin(2 * std::numbers::pi * k * spacing / wavelength)) + ",0,0\n";
+    text += digits(k + 0.5) + ",0,0,0.5," + digits(1e-3 * std::sin(2 * std::numbers::pi * k * spacing / wavelength)) +
+            ",0,0\n";
   return text;
 }
 
@@ -35,7 +35,9 @@ std::string scene(int count, double step) {
 }  // namespace
 
 TEST_CASE("P-12: phase speed of waves in a row falls with the wavelength as sin(pi d/L)/(pi d/L)") {
-  Measure measure("P-12", "w = 2 sqrt(k/m) sin(pi d/L) of a row of masses (Brillouin, Wave Propagation in Periodic Structures, 1946)");
+  Measure measure(
+      "P-12",
+      "w = 2 sqrt(k/m) sin(pi d/L) of a row of masses (Brillouin, Wave Propagation in Periodic Structures, 1946)");
   for (const double wavelength : {4.0, 6.0, 10.0, 20.0, 50.0}) {
     const int count = wavelength == 50 ? 100 : 60;
     const double step = 1e-3, angle = std::numbers::pi * spacing / wavelength;
@@ -54,7 +56,7 @@ TEST_CASE("P-12: phase speed of waves in a row falls with the wavelength as sin(
       motion.push_back(run.engine().balls[Column::vx][row]);
     }
     const double found = peak(motion, step, frequency);
-    measure.check("phase speed over C at " + digits(wavelength) + " d", found * wavelength / speed, std::sin(angle) / angle,
-                  2e-4);
+    measure.check("phase speed over C at " + digits(wavelength) + " d", found * wavelength / speed,
+                  std::sin(angle) / angle, 2e-4);
   }
 }
