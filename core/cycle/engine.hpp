@@ -9,7 +9,7 @@
 #include "core/base/threads.hpp"
 #include "core/contact/contacts.hpp"
 #include "core/contact/step_bound.hpp"
-#include "core/cycle/energy_ledger.hpp"
+#include "core/cycle/energy_balance.hpp"
 #include "core/cycle/monitors.hpp"
 #include "core/cycle/motion.hpp"
 #include "core/cycle/observation.hpp"
@@ -70,7 +70,7 @@ class Engine {
   Contacts contacts;
   std::vector<Process> processes;
   StepControl step;
-  EnergyLedger ledger;
+  EnergyBalance ledger;
   Clock clock;
   Team team;
   ProcessHost host;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/contact/slices.hpp"
-#include "core/cycle/energy_ledger.hpp"
+#include "core/cycle/energy_balance.hpp"
 #include "core/cycle/process.hpp"
 #include "core/world/balls.hpp"
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/array.hpp"
-#include "core/cycle/energy_ledger.hpp"
+#include "core/cycle/energy_balance.hpp"
 
 namespace scree::core {
 

@@ -80,7 +80,7 @@ void save_ledger(const Engine& engine, ArchiveWriter& out) {
 
 void load_ledger(Engine& engine, Engine::Loop& loop, const ArchiveReader& archive) {
   Unpacker in(archive, "ledger");
-  std::array<double, EnergyLedger::saved_words> words{};
+  std::array<double, EnergyBalance::saved_words> words{};
   in.f64s(words.data(), words.size());
   engine.ledger.load(words);
   loop.energy.strain = in.f64();

@@ -107,7 +107,7 @@ const Vectors vectors[] = {{"momentum", "kg m/s", momentum}, {"angular_momentum"
 std::optional<Published> find_energy(const std::string& name, Simulation& simulation) {
   if (!simulation.engine.ledger.on || !name.starts_with("energy.")) return std::nullopt;
   const std::string term = name.substr(7);
-  const auto& terms = EnergyLedger::terms();
+  const auto& terms = EnergyBalance::terms();
   const bool share = term == "residual_share";
   if (term != "residual" && !share && std::find(terms.begin(), terms.end(), term) == terms.end()) return std::nullopt;
   return Published{share ? "1" : "J", pass, [&simulation, term] {
@@ -150,7 +150,7 @@ std::vector<std::string> published_names(const Simulation& simulation, const std
   for (const Vectors& one : vectors)
     for (const char axis : {'x', 'y', 'z'}) names.push_back(std::string(one.name) + "." + axis);
   if (simulation.engine.ledger.on) {
-    for (const std::string& term : EnergyLedger::terms()) names.push_back("energy." + term);
+    for (const std::string& term : EnergyBalance::terms()) names.push_back("energy." + term);
     names.insert(names.end(), {"energy.residual", "energy.residual_share"});
   }
   for (const Wall& wall : simulation.engine.walls) add_wall_names(wall.name, names);

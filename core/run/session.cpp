@@ -208,7 +208,7 @@ void Session::read_quantities() {
   if (!engine.ledger.on) return;
   const StoredEnergy now = engine.stored_energy();
   energy_ = Summary::Energy{engine.ledger.residual_share(now), {}};
-  for (const std::string& term : EnergyLedger::terms())
+  for (const std::string& term : EnergyBalance::terms())
     energy_->terms.emplace_back(term, engine.ledger.value(term, now));
 }
 

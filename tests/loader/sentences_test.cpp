@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/plugin/first_size.hpp"
 #include "loader/plugin_folder.hpp"
 #include "support/catch.hpp"
 #include "support/program.hpp"
@@ -43,7 +44,7 @@ std::vector<Sentence> sentences() {
     one.text = replaced(one.text, "THIS_ABI", std::to_string(SCREE_ABI_MAJOR) + "." + std::to_string(SCREE_ABI_MINOR));
     one.text = replaced(one.text, "HEADER_BYTES", std::to_string(sizeof(scree_plugin_header)));
     one.text = replaced(one.text, "COMPONENT_BYTES", std::to_string(sizeof(scree_component)));
-    one.text = replaced(one.text, "TABLE_BYTES", std::to_string(sizeof(scree_contact_model)));
+    one.text = replaced(one.text, "TABLE_BYTES", std::to_string(scree::core::first_size<scree_contact_model>));
     one.text = replaced(one.text, "PROPERTY_BYTES", std::to_string(sizeof(scree_property)));
     all.push_back(one);
   }

@@ -88,7 +88,7 @@ TEST_CASE("D64 OK: a run restarted while bonds break goes on with the same bits 
   CHECK(simulation->engine.state_hash() == whole->engine.state_hash());
   CHECK(simulation->engine.contacts.breaks == whole->engine.contacts.breaks);
   const StoredEnergy one = simulation->engine.stored_energy(), other = whole->engine.stored_energy();
-  for (const std::string& term : EnergyLedger::terms())
+  for (const std::string& term : EnergyBalance::terms())
     CHECK(simulation->engine.ledger.value(term, one) == whole->engine.ledger.value(term, other));
   lab::measured("D64", "60 restarts on 1 to 3 threads, " + std::to_string(log.size()) + " breaks, same bits");
 }
@@ -115,7 +115,7 @@ stages:
     for (int c = 0; c < 3; ++c)
       engine.balls[static_cast<Column>(static_cast<int>(Column::vx) + c)][row] =
           100 * engine.balls[static_cast<Column>(static_cast<int>(Column::x) + c)][row];
-  engine.ledger = EnergyLedger();
+  engine.ledger = EnergyBalance();
   engine.ledger.on = true;
   lab::run(*simulation, 0);
   const uint64_t bonds = engine.contacts.bonded();

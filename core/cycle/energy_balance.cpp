@@ -1,4 +1,4 @@
-#include "core/cycle/energy_ledger.hpp"
+#include "core/cycle/energy_balance.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@ void CarefulSum::add(double value) {
   sum = next;
 }
 
-void EnergyLedger::add_contacts(const ContactEnergy& pass) {
+void EnergyBalance::add_contacts(const ContactEnergy& pass) {
   total_[friction].add(pass.friction);
   total_[dashpot].add(pass.dashpot);
   total_[broken].add(pass.broken);
   passed_.add(std::fabs(pass.friction) + std::fabs(pass.dashpot) + std::fabs(pass.broken));
 }
 
-void EnergyLedger::add_rows(const RowWork& work, double stored_in_contacts) {
+void EnergyBalance::add_rows(const RowWork& work, double stored_in_contacts) {
   total_[body].add(work.body);
   total_[damping].add(-work.damping);
   total_[boundary].add(work.boundary);
@@ -26,13 +26,13 @@ void EnergyLedger::add_rows(const RowWork& work, double stored_in_contacts) {
   most_stored_ = std::max(most_stored_, work.kinetic + stored_in_contacts);
 }
 
-void EnergyLedger::add_walls(double work) {
+void EnergyBalance::add_walls(double work) {
   total_[boundary].add(work);
   passed_.add(std::fabs(work));
 }
 
 // Stored energy less what came in, plus what was lost: constant if nothing is forgotten.
-double EnergyLedger::balance(const StoredEnergy& now) const {
+double EnergyBalance::balance(const StoredEnergy& now) const {
   const double in = total_[body].value() + now.before.body + total_[boundary].value() + now.before.boundary +
                     now.wall_before + total_[edits].value();
   const double lost = total_[friction].value() + total_[dashpot].value() + total_[broken].value() +
@@ -40,34 +40,34 @@ double EnergyLedger::balance(const StoredEnergy& now) const {
   return now.kinetic_shadow + now.strain + now.bond - in + lost;
 }
 
-double EnergyLedger::residual(const StoredEnergy& now) const { return begun_ ? balance(now) - start_ : 0.0; }
+double EnergyBalance::residual(const StoredEnergy& now) const { return begun_ ? balance(now) - start_ : 0.0; }
 
-double EnergyLedger::residual_share(const StoredEnergy& now) const {
+double EnergyBalance::residual_share(const StoredEnergy& now) const {
   const double through = std::max(most_stored_, now.kinetic + now.strain + now.bond) + passed_.value();
   return through > 0 ? std::fabs(residual(now)) / through : 0.0;
 }
 
-void EnergyLedger::begin(const StoredEnergy& now) {
+void EnergyBalance::begin(const StoredEnergy& now) {
   start_ = balance(now);
   begun_ = true;
 }
 
-void EnergyLedger::before_edit(const StoredEnergy& now) {
+void EnergyBalance::before_edit(const StoredEnergy& now) {
   if (begun_ && !edited_) edited_ = residual(now);
 }
 
-void EnergyLedger::after_edit(const StoredEnergy& now) {
+void EnergyBalance::after_edit(const StoredEnergy& now) {
   if (edited_) total_[edits].add(residual(now) - *edited_);
   edited_.reset();
 }
 
-const std::vector<std::string>& EnergyLedger::terms() {
+const std::vector<std::string>& EnergyBalance::terms() {
   static const std::vector<std::string> names = {"body",     "boundary", "kinetic", "kinetic_shadow", "strain", "bond",
                                                  "friction", "dashpot",  "damping", "bond_break",     "edits"};
   return names;
 }
 
-double EnergyLedger::value(const std::string& term, const StoredEnergy& now) const {
+double EnergyBalance::value(const std::string& term, const StoredEnergy& now) const {
   if (term == "body") return total_[body].value() + now.before.body;
   if (term == "boundary") return total_[boundary].value() + now.before.boundary + now.wall_before;
   if (term == "kinetic") return now.kinetic;
@@ -82,7 +82,7 @@ double EnergyLedger::value(const std::string& term, const StoredEnergy& now) con
   return term == "residual" ? residual(now) : residual_share(now);
 }
 
-std::array<double, EnergyLedger::saved_words> EnergyLedger::save() const {
+std::array<double, EnergyBalance::saved_words> EnergyBalance::save() const {
   std::array<double, saved_words> words{};
   std::size_t at = 0;
   for (const CarefulSum& sum : total_) {
@@ -93,7 +93,7 @@ std::array<double, EnergyLedger::saved_words> EnergyLedger::save() const {
   return words;
 }
 
-void EnergyLedger::load(const std::array<double, saved_words>& words) {
+void EnergyBalance::load(const std::array<double, saved_words>& words) {
   std::size_t at = 0;
   for (CarefulSum& sum : total_) {
     sum.sum = words[at++];

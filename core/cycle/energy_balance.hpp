@@ -43,7 +43,7 @@ struct StoredEnergy {
 
 /// The energy balance of a run: what was put in, what is stored, what was lost. Terms are histories since the ledger
 /// began, up to the drift of the last advance.
-class EnergyLedger {
+class EnergyBalance {
  public:
   bool on = false;
 
