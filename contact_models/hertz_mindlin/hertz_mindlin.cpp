@@ -3,6 +3,7 @@
 // T. Antypov and J. A. Elliott, "On an analytical solution for the damped Hertzian spring", EPL 94 (2011) 50004.
 // Property names and modes follow PFC. Equations: hertz_mindlin.md.
 #include <scree/contact_model.hpp>
+#include <scree/plain_math.hpp>
 
 namespace {
 using namespace scree;
@@ -12,11 +13,12 @@ using namespace scree;
 double unpulled_restitution(double b) {
   if (b < 1) {
     const double s = std::sqrt(1 - b * b);
-    return std::exp(-b / s * std::atan2(2 * b * s, 2 * b * b - 1));
+    const double turn = 2 * plain_arctan(s / b);  // cos(turn/2) = b
+    return plain_exp(-b / s * turn);
   }
-  if (b == 1) return std::exp(-2.0);
+  if (b == 1) return plain_exp(-2.0);
   const double s = std::sqrt((b - 1) * (b + 1));
-  return std::exp(-2 * b / s * std::log(b + s));  // (b + s)/(b - s) = (b + s)^2
+  return plain_exp(-2 * b / s * plain_log(b + s));  // (b + s)/(b - s) = (b + s)^2
 }
 
 /// The share of critical damping of a linear spring that gives the restitution `e`, above 0 where it may not pull.
@@ -24,7 +26,7 @@ double linear_share(double e, bool pulls) {
   if (e >= 1) return 0;
   if (pulls) {
     constexpr double pi = 3.14159265358979323846;
-    const double log = e > 0 ? std::log(e) : 0;
+    const double log = e > 0 ? plain_log(e) : 0;
     return e > 0 ? -log / std::sqrt(pi * pi + log * log) : 1;
   }
   double low = 0, high = 1;
@@ -37,16 +39,15 @@ double linear_share(double e, bool pulls) {
 }
 
 struct HertzMindlin {
-  double shear, poiss, fric, restitution, dp_nratio, dp_sratio, dp_mode, hz_mode, shear_per_normal, h;
+  double shear, poiss, fric, restitution, dp_nratio, dp_sratio, dp_mode, hz_mode, hz_mixing, shear_per_normal, h;
 
   static constexpr bool nonlinear = true;
   static void describe(Properties<HertzMindlin>& p) {
-    p.number("shear", &HertzMindlin::shear, "Pa", "shear modulus").above(0).mix(mean);
+    p.number("shear", &HertzMindlin::shear, "Pa", "shear modulus").above(0).infinite().mix(mean);
     p.number("poiss", &HertzMindlin::poiss, "1", "Poisson's ratio").above(-1).at_most(0.5).mix(mean);
     p.number("fric", &HertzMindlin::fric, "1", "friction coefficient").at_least(0).fallback(0).mix(least);
     p.number("dp_nratio", &HertzMindlin::dp_nratio, "1", "normal dashpot, share of critical damping of the tangent")
         .at_least(0)
-        .fallback(0)
         .mix(mean);
     p.number("restitution", &HertzMindlin::restitution, "1", "speed after over speed before a head-on impact")
         .at_least(0)
@@ -66,6 +67,11 @@ struct HertzMindlin {
         .at_least(0)
         .at_most(2)
         .fallback(1);
+    p.integer("hz_mixing", &HertzMindlin::hz_mixing,
+              "shear and poiss of two pieces: 0 compliances add up as in theory, 1 means of both as in PFC")
+        .at_least(0)
+        .at_most(1)
+        .fallback(0);
     p.number("shear_per_normal", &HertzMindlin::shear_per_normal, "1", "shear over normal stiffness").derived();
     p.number("h", &HertzMindlin::h, "Pa m^0.5", "normal force over overlap^1.5").derived();
     p.either("dp_nratio", "restitution");
@@ -80,9 +86,33 @@ struct HertzMindlin {
 
   bool pulls() const { return dp_mode == 0 || dp_mode == 2; }
 
+  /// The modulus and ratio that two equal pieces would need to be as compliant, normal and in shear, as these two. A
+  /// piece of infinite modulus and a wall without one are rigid.
+  void mixed(const HertzMindlin& piece1, const HertzMindlin& piece2) {
+    if (hz_mixing == 1) {
+      if (piece1.rigid() || piece2.rigid())
+        throw std::runtime_error(
+            "one piece is rigid (its 'shear' is infinite or a wall's is not given), and hz_mixing 1 has no mean of "
+            "that: take hz_mixing 0, or give 'shear' and 'poiss' on the rule");
+      return;
+    }
+    if (piece1.shear == piece2.shear && piece1.poiss == piece2.poiss) return;
+    const double normal = piece1.compliance() + piece2.compliance();
+    if (normal == 0) return;  // both are rigid, which `prepare` refuses
+    const double ratio = 4 * normal / (piece1.compliance_across() + piece2.compliance_across());
+    poiss = (2 - 2 * ratio) / (2 - ratio);
+    shear = (1 - poiss) / normal;
+  }
+  bool rigid() const { return !(shear <= std::numeric_limits<double>::max()); }
+  double compliance() const { return rigid() ? 0 : (1 - with_poiss()) / (2 * shear); }  ///< (1 - nu^2)/E
+  double compliance_across() const { return rigid() ? 0 : (2 - with_poiss()) / shear; }
+  double with_poiss() const {
+    if (poiss != poiss) throw std::runtime_error("the wall gives 'shear' and no 'poiss': give both, or neither");
+    return poiss;
+  }
+
   void prepare(uint32_t form) {
-    if (shear > std::numeric_limits<double>::max())
-      throw std::runtime_error("'shear' is infinite, but a contact of two rigid pieces has no stiffness");
+    if (rigid()) throw std::runtime_error("'shear' is infinite, but a contact of two rigid pieces has no stiffness");
     shear_per_normal = 2 * (1 - poiss) / (2 - poiss);
     if (form == 0) return;
     if (restitution == 0 && !pulls())

@@ -66,38 +66,6 @@ std::array<uint32_t, 4> philox(const std::array<uint32_t, 4>& counter, const std
   return {r[0], r[1], r[2], r[3]};
 }
 
-double plain_log(double x) {
-  int exponent = 0;
-  double m = std::frexp(x, &exponent);  // exact, m in [1/2, 1)
-  if (m < 0.70710678118654752440) {
-    m = m + m;
-    --exponent;
-  }
-  // log m = 2 atanh(f), f = (m-1)/(m+1), |f| <= 0.1716: the first term left out is below 2e-18 of the sum. m - 1 is
-  // exact, and its leading term is kept apart: 2f = (m-1) - f (m-1), which has no rounding of its own size.
-  const double d = m - 1.0;
-  const double f = d / (m + 1.0);
-  const double f2 = f * f;
-  double tail = 0;
-  for (int k = 25; k >= 3; k -= 2) tail = tail * f2 + 2.0 / k;
-  const double e = exponent;
-  // ln 2 in two parts; the first has 21 trailing zero bits, so its product with an exponent is exact.
-  const double high = 6.93147180369123816490e-01, low = 1.90821492927058770002e-10;
-  return e * high + (d - f * (d - f2 * tail) + e * low);
-}
-
-double plain_exp(double x) {
-  if (x < -708) return 0;
-  if (x > 709) return std::numeric_limits<double>::infinity();
-  // x = n ln 2 + r, |r| < 0.347: the first term left out is below 5e-18 of the sum.
-  const double n = std::floor(x * 1.44269504088896340736 + 0.5);
-  const double high = 6.93147180369123816490e-01, low = 1.90821492927058770002e-10;
-  const double r = (x - n * high) - n * low;
-  double sum = 1;
-  for (int k = 13; k >= 1; --k) sum = 1 + sum * r / k;
-  return std::ldexp(sum, static_cast<int>(n));
-}
-
 double inverse_normal(double p) {
   const double q = p - 0.5;
   if (std::abs(q) <= 0.425) {

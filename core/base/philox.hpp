@@ -1,5 +1,6 @@
 #pragma once
 #include <scree/abi.h>
+#include <scree/plain_math.hpp>
 
 #include <array>
 #include <cstdint>
@@ -10,13 +11,9 @@ namespace scree::core {
 /// Philox4x32-10 (Salmon, Moraes, Dror, Shaw 2011): a block of 128 random bits from a counter and a key. [any thread]
 std::array<uint32_t, 4> philox(const std::array<uint32_t, 4>& counter, const std::array<uint32_t, 2>& key);
 
-/// Natural logarithm of a positive, finite, normal number by plain arithmetic: the same bits with every C library, and
-/// within 1e-15 of the true value. Not for zero, negative, subnormal or infinite x. [any thread]
-double plain_log(double x);
-
-/// e to the x by plain arithmetic: the same bits with every C library, and within 1e-15 of the true value relative.
-/// 0 below -708, infinite above 709. [any thread]
-double plain_exp(double x);
+using scree::plain_arctan;
+using scree::plain_exp;
+using scree::plain_log;
 
 /// The z with P(Z <= z) = p for a standard normal Z, 0 < p < 1: algorithm AS 241, PPND16 (Wichura 1988), about 1e-16
 /// relative. [any thread]

@@ -62,7 +62,7 @@ void add_pairs(Diagonals& sums, const TouchList& list, const BoundRule& rule, co
       for (uint32_t k = 0; k < n; ++k) s.property[v][k] = list.property[v][s.slot[k]];
     for (std::size_t w = 0; w < list.state.size(); ++w)
       for (uint32_t k = 0; k < n; ++k) s.state[w][k] = list.state[w][s.slot[k]];
-    tangents(rule, n, s, t);
+    tangents(rule, n, list.bonded, s, t);
     for (uint32_t k = 0; k < n; ++k) {
       if (list.active[s.slot[k]] == 0) continue;
       sums.add(s.row[k], view.radius[s.row[k]] + 0.5 * s.gap[k], s, t, k);
@@ -87,7 +87,7 @@ void add_wall(Diagonals& sums, const WallList& list, const BoundRule& rule, cons
     s.mass[0] = balls[Column::mass][contact.row];
     for (std::size_t w = 0; w < words; ++w) s.state[w][0] = list.state[slot * words + w];
     for (std::size_t v = 0; v < varying; ++v) s.property[v][0] = list.property[slot * varying + v];
-    tangents(rule, 1, s, t);
+    tangents(rule, 1, false, s, t);
     sums.add(contact.row, radius, s, t, 0);
   }
 }
@@ -100,9 +100,8 @@ DiagonalRule diagonal_rule(const Contacts& contacts, const Balls& balls, const P
   const ImageShifts shifts(cell);
   const auto scratch = std::make_unique<Scratch>();
   const auto tangents = std::make_unique<Tangents>();
-  for (std::size_t rule = 0; rule < contacts.lists().size(); ++rule)
-    add_pairs(sums, contacts.lists()[rule], contacts.book.rules[rule], balls, cell.any() ? shifts.of : nullptr,
-              *scratch, *tangents);
+  for (const TouchList& list : contacts.lists())
+    add_pairs(sums, list, contacts.book.rules[list.rule], balls, cell.any() ? shifts.of : nullptr, *scratch, *tangents);
   for (const WallList& list : contacts.wall_lists())
     if (contacts.book.rules[list.rule].model != nullptr)
       add_wall(sums, list, contacts.book.rules[list.rule], balls, *scratch, *tangents);

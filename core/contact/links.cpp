@@ -88,6 +88,7 @@ void Gatherer::list(std::size_t index, std::size_t block, Links& out) {
   if (nobody_.size() < list.size()) nobody_.resize(list.size(), 0);
   const FilterInput everything{list.begin.data(), list.other.data(), list.where.data(),
                                periodic_ ? shifts_.of : nullptr, std::numeric_limits<double>::infinity()};
+  out.links.reserve(out.links.size() + (list.begin[end] - list.begin[begin]));
   Cursor cursor{list.begin[begin], begin, end};
   while (cursor.row < cursor.last_row) {
     uint32_t drops[Scratch::padded], dropped = 0;
@@ -257,6 +258,9 @@ Links gather_links(const Contacts& contacts, const Balls& balls, const std::vect
       gatherers[thread]->walls(contacts.wall_lists()[part - blocks], parts[part]);
   });
   Links all;
+  std::size_t total = 0;
+  for (const Links& part : parts) total += part.links.size();
+  all.links.reserve(total);
   for (Links& part : parts) {
     append(all, part);
     part = Links();

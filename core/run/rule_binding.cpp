@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/base/hash.hpp"
@@ -68,7 +69,10 @@ struct Binding {
   Place place;
   const scree_contact_model* table;
   uint32_t form;
-  std::vector<double> base;       ///< words with all uniform inputs in place
+  std::vector<double> base;  ///< words with all uniform inputs in place
+  /// Words of each piece where the model mixes whole pieces, with all uniform inputs in place; else empty.
+  std::vector<double> base1, base2;
+  bool from_pieces = false;       ///< some input comes from the pieces
   std::vector<Input> inputs;      ///< those that vary
   std::vector<Setting> settings;  ///< kept alive for inputs
 
@@ -90,8 +94,17 @@ struct Binding {
     return *value;
   }
 
-  double value(const Input& input, const Birth& birth) const {
-    if (input.random) return input.setting->drawn->draw(*input.random, key_of(birth, simulation->engine.balls));
+  /// A value as the law gets it, and what each piece gave.
+  struct Value {
+    double mixed, first, second;
+    bool operator==(const Value& o) const { return mixed == o.mixed && first == o.first && same(second, o.second); }
+    static bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+  };
+  Value value(const Input& input, const Birth& birth) const {
+    if (input.random) {
+      const double drawn = input.setting->drawn->draw(*input.random, key_of(birth, simulation->engine.balls));
+      return {drawn, drawn, drawn};
+    }
     if (input.setting != nullptr) {
       std::vector<double> values;
       for (const std::string& variable : input.setting->formula->names())
@@ -99,19 +112,35 @@ struct Binding {
       const double result = input.setting->formula->evaluate(values);
       if (!std::isfinite(result))
         refuse(std::string("'") + input.property->name + "' gives no finite number at a contact");
-      return result;
+      return {result, result, result};
     }
     const double first = piece(input, birth.row1);
-    if (birth.wall == nullptr) return mixed(input.property->mix, first, piece(input, birth.row2));
-    const auto found = birth.wall->contact.find(input.property->name);
-    if (found == birth.wall->contact.end() && (input.property->flags & SCREE_HAS_FALLBACK) != 0)
-      return mixed(input.property->mix, first, input.property->fallback);
-    if (found == birth.wall->contact.end())
-      refuse(std::string("'") + input.property->name + "' is given neither on the rule nor on wall '" +
-             birth.wall->name + "'");
-    return mixed(input.property->mix, first, found->second);
+    const double second = birth.wall == nullptr ? piece(input, birth.row2) : of_wall(input, *birth.wall);
+    // Only a law that mixes whole pieces is ever handed a wall without the value, and decides what that means.
+    return {std::isnan(second) ? first : mixed(input.property->mix, first, second), first, second};
+  }
+  double of_wall(const Input& input, const Wall& wall) const {
+    const auto found = wall.contact.find(input.property->name);
+    if (found != wall.contact.end()) return found->second;
+    if ((input.property->flags & SCREE_HAS_FALLBACK) != 0) return input.property->fallback;
+    if (table->mixed == nullptr)
+      refuse(std::string("'") + input.property->name + "' is given neither on the rule nor on wall '" + wall.name +
+             "'");
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
+  void mix_pieces(double* words, const Birth& birth) const {
+    if (table->mixed == nullptr || !from_pieces) return;
+    std::vector<double> piece1 = base1, piece2 = base2;
+    for (const Input& input : inputs) {
+      const Value v = value(input, birth);
+      piece1[input.property->word] = v.first;
+      piece2[input.property->word] = v.second;
+    }
+    char why[512] = "";
+    const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
+    if (table->mixed(words, piece1.data(), piece2.data(), form, &refusal) != 0) refuse(why);
+  }
   void finish(double* words, const Birth& birth) const {
     char why[512] = "";
     const scree_refusal refusal{sizeof(scree_refusal), sizeof why, why};
@@ -127,7 +156,8 @@ struct Binding {
 
   void fill(const Birth& birth, double* words) const {
     std::copy(base.begin(), base.end(), words);
-    for (const Input& input : inputs) words[input.property->word] = value(input, birth);
+    for (const Input& input : inputs) words[input.property->word] = value(input, birth).mixed;
+    mix_pieces(words, birth);
     finish(words, birth);
   }
 
@@ -135,7 +165,8 @@ struct Binding {
   void fill_largest(const Birth& birth, double* words) const {
     std::copy(base.begin(), base.end(), words);
     for (const Input& input : inputs)
-      words[input.property->word] = input.random ? input.setting->drawn->largest() : value(input, birth);
+      words[input.property->word] = input.random ? input.setting->drawn->largest() : value(input, birth).mixed;
+    mix_pieces(words, birth);
     finish(words, birth);
   }
 };
@@ -273,8 +304,10 @@ void collect_inputs(Binding& binding, const Probes& probes) {
         binding.refuse(std::string("'") + property.name + "' is given neither on the rule nor on its pieces");
       continue;
     }
+    binding.from_pieces = true;
     binding.inputs.push_back(input);
   }
+  if (binding.table->mixed != nullptr) binding.base1 = binding.base2 = binding.base;
 }
 
 // Pieces that all agree are uniform after all.
@@ -288,16 +321,20 @@ void settle_equal_pieces(Binding& binding, const Probes& probes) {
         if (!value || (group && *group != *value)) same = false;
         group = value;
       }
-    double first = 0;
+    Binding::Value first{};
     for (std::size_t k = 0; same && k < probes.births.size(); ++k) {
-      const double now = binding.value(input, probes.births[k]);
+      const Binding::Value now = binding.value(input, probes.births[k]);
       if (k == 0) first = now;
-      same = now == first;
+      same = binding.table->mixed != nullptr ? now == first : now.mixed == first.mixed;
     }
-    if (same)
-      binding.base[input.property->word] = first;
-    else
+    if (!same) {
       left.push_back(input);
+      continue;
+    }
+    binding.base[input.property->word] = first.mixed;
+    if (binding.table->mixed == nullptr) continue;
+    binding.base1[input.property->word] = first.first;
+    binding.base2[input.property->word] = first.second;
   }
   binding.inputs = left;
 }

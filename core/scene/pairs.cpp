@@ -60,6 +60,7 @@ void no_rule(const Place& place, const std::string& one, const std::string& othe
 struct Given {
   std::string piece;
   const std::vector<PieceProperty>* properties;
+  bool wall = false;
 };
 
 const PieceProperty* find_in(const Given& given, const std::string& name) {
@@ -80,7 +81,7 @@ std::vector<Given> pieces_of(const Rule& rule, const AllPieces& all) {
       out.push_back({set->name, &set->contact});
   for (const WallUse* wall : all.walls)
     if (std::max(fit(rule.between[0], {wall->name, true}), fit(rule.between[1], {wall->name, true})) != Fit::none)
-      out.push_back({wall->name, &wall->contact});
+      out.push_back({wall->name, &wall->contact, true});
   return out;
 }
 
@@ -142,7 +143,8 @@ class LawCheck {
     for (const Given& piece : pieces_) {
       if (find_in(piece, name))
         ++giving;
-      else
+      else if (!piece.wall ||
+               component_.contact_model().mixed == nullptr)  // such a law takes a wall that gives nothing
         lacking += (lacking.empty() ? "'" : ", '") + piece.piece + "'";
     }
     const bool required = (property.flags & SCREE_REQUIRED) != 0;

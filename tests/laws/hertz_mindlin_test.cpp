@@ -140,3 +140,19 @@ TEST_CASE("hertz_mindlin: without friction and shear dashpot nothing tangential 
   CHECK((hertz().needs(rule_of(hertz(), {{"shear", 1e9}, {"poiss", 0.3}}).data()) & SCREE_NORMAL_ONLY) != 0);
   CHECK((hertz().needs(rule_of(hertz(), glass).data()) & SCREE_NORMAL_ONLY) == 0);
 }
+
+TEST_CASE("hertz_mindlin: two materials are as compliant together as theory says") {
+  const auto words = [](double shear, double poiss) { return rule_of(hertz(), {{"shear", shear}, {"poiss", poiss}}); };
+  const double g1 = 30e9, nu1 = 0.25, g2 = 10e9, nu2 = 0.4, rigid = std::numeric_limits<double>::infinity();
+  const auto pair_of = [&](double g, double nu) {
+    std::vector<double> pair = words(0.5 * (g1 + g), 0.5 * (nu1 + nu));
+    REQUIRE(hertz().mixed(pair.data(), words(g1, nu1).data(), words(g, nu).data(), 0, nullptr) == 0);
+    return std::pair{pair[word_of(hertz(), "shear")], pair[word_of(hertz(), "poiss")]};
+  };
+  const auto [g, nu] = pair_of(g2, nu2);
+  CHECK(2 * (1 - nu) / (2 * g) == Approx((1 - nu1) / (2 * g1) + (1 - nu2) / (2 * g2)).epsilon(1e-13));  // 1/E*
+  CHECK(2 * (2 - nu) / g == Approx((2 - nu1) / g1 + (2 - nu2) / g2).epsilon(1e-13));                    // 1/G*
+  CHECK(pair_of(g1, nu1) == std::pair{g1, nu1});
+  CHECK(pair_of(rigid, 0.1).first == Approx(2 * g1).epsilon(1e-14));
+  CHECK(pair_of(rigid, 0.1).second == Approx(nu1).epsilon(1e-13));
+}

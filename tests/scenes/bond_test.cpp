@@ -10,14 +10,16 @@ using scree::core::Column;
 
 namespace {
 
-const char* const glue = "model: contact_bond, kn: 1e6, ks: 1e6, fric: 0.5, lin_mode: 1, cb_tenf: 100, cb_shearf: 100}\n";
+const char* const glue =
+    "model: contact_bond, kn: 1e6, ks: 1e6, fric: 0.5, lin_mode: 1, cb_tenf: 100, cb_shearf: 100}\n";
 
 /// Four balls in a row along x, the gaps between them 0, 1 um and 10 um.
 const char* const row = "x,y,z,radius,group\n0,0,0,0.01,a\n0.02,0,0,0.01,a\n0.040001,0,0,0.01,b\n0.060011,0,0,0.01,b\n";
 
 std::string scene(const std::string& stages, const std::string& processes = "") {
-  return std::string("scree: 1\ntimestep: 1e-6\nballs:\n  row: {generator: file, path: balls.csv, density: 2500}\n"
-                     "contacts:\n  - {name: glue, between: [balls, balls], ") +
+  return std::string(
+             "scree: 1\ntimestep: 1e-6\nballs:\n  row: {generator: file, path: balls.csv, density: 2500}\n"
+             "contacts:\n  - {name: glue, between: [balls, balls], ") +
          glue + processes + "stages:\n" + stages;
 }
 
@@ -53,10 +55,12 @@ TEST_CASE("a bond begins without force and is counted once") {
 }
 
 TEST_CASE("D44 OK: a bonded pair holds over a gap of five radii") {
-  SceneRun run(std::string("scree: 1\ntimestep: 1e-5\nballs:\n  row: {generator: file, path: balls.csv, density: 2500}\n"
-                           "contacts:\n  - {name: glue, between: [balls, balls], model: contact_bond, kn: 1e3, ks: 1e3, lin_mode: 1, "
-                           "cb_tenf: .inf, cb_shearf: .inf}\nstages:\n  - one: [bond: {rule: glue, gap: 60 mm}]\n"),
-               "x,y,z,radius,vx,vy,vz\n0,0,0,0.01,-1,0,0\n0.07,0,0,0.01,1,0,0\n");
+  SceneRun run(
+      std::string(
+          "scree: 1\ntimestep: 1e-5\nballs:\n  row: {generator: file, path: balls.csv, density: 2500}\n"
+          "contacts:\n  - {name: glue, between: [balls, balls], model: contact_bond, kn: 1e3, ks: 1e3, lin_mode: 1, "
+          "cb_tenf: .inf, cb_shearf: .inf}\nstages:\n  - one: [bond: {rule: glue, gap: 60 mm}]\n"),
+      "x,y,z,radius,vx,vy,vz\n0,0,0,0.01,-1,0,0\n0.07,0,0,0.01,1,0,0\n");
   act(run, 0);
   REQUIRE(run.value("bonds.count") == 1);
   const uint64_t before = run.engine().rebuilds();
@@ -74,9 +78,11 @@ TEST_CASE("D44 OK: a bonded pair holds over a gap of five radii") {
 }
 
 TEST_CASE("a bond that broke leaves a contact, and is bonded again only where that is asked for") {
-  const std::string pull = "apply: {balls: row, force: [300, 0, 0], where: \"id == 2\"}, "
-                           "fix: {balls: row, where: \"id != 2\"}";
-  SceneRun run(scene("  - one: [bond: {rule: glue}, " + pull + "]\n  - first_only: [bond: {rule: glue, gap: 5 mm, again: false, "
+  const std::string pull =
+      "apply: {balls: row, force: [300, 0, 0], where: \"id == 2\"}, "
+      "fix: {balls: row, where: \"id != 2\"}";
+  SceneRun run(scene("  - one: [bond: {rule: glue}, " + pull +
+                     "]\n  - first_only: [bond: {rule: glue, gap: 5 mm, again: false, "
                      "between: [row.a, row.a]}]\n  - anew: [bond: {rule: glue, gap: 5 mm, between: [row.a, row.a]}]\n"),
                row);
   act(run, 0);
@@ -96,8 +102,9 @@ TEST_CASE("a bond that broke leaves a contact, and is bonded again only where th
 }
 
 TEST_CASE("the process bond glues what comes near, at most once unless it is told so") {
-  SceneRun run(scene("  - go: [cycle: 1]\n", "processes:\n  cement: {process: bonding, rule: glue, gap: 5 um, every: 10}\n"),
-               row);
+  SceneRun run(
+      scene("  - go: [cycle: 1]\n", "processes:\n  cement: {process: bonding, rule: glue, gap: 5 um, every: 10}\n"),
+      row);
   CHECK(run.value("bonds.count") == 0);
   run.step(10);
   CHECK(run.value("bonds.count") == 2);
@@ -106,11 +113,12 @@ TEST_CASE("the process bond glues what comes near, at most once unless it is tol
 }
 
 TEST_CASE("bonds reach through the periodic cell") {
-  SceneRun run(std::string("scree: 1\ntimestep: 1e-6\ncell: {low: [0, -0.1, -0.1], high: [0.2, 0.1, 0.1], periodic: [x]}\n"
-                           "balls:\n  row: {generator: file, path: balls.csv, density: 2500, velocity: [3, 0, 0]}\n"
-                           "contacts:\n  - {name: glue, between: [balls, balls], ") +
-                   glue + "stages:\n  - one: [bond: {rule: glue, gap: 1 um}]\n",
-               "x,y,z,radius\n0.005,0,0,0.01\n0.185,0,0,0.01\n");
+  SceneRun run(
+      std::string("scree: 1\ntimestep: 1e-6\ncell: {low: [0, -0.1, -0.1], high: [0.2, 0.1, 0.1], periodic: [x]}\n"
+                  "balls:\n  row: {generator: file, path: balls.csv, density: 2500, velocity: [3, 0, 0]}\n"
+                  "contacts:\n  - {name: glue, between: [balls, balls], ") +
+          glue + "stages:\n  - one: [bond: {rule: glue, gap: 1 um}]\n",
+      "x,y,z,radius\n0.005,0,0,0.01\n0.185,0,0,0.01\n");
   act(run, 0);
   REQUIRE(run.value("bonds.count") == 1);
   run.step(20000);  // 60 mm: both balls go round

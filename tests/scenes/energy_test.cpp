@@ -29,7 +29,8 @@ processes:
 }  // namespace
 
 TEST_CASE("F4: a ball that slides until it rolls loses two sevenths of its energy to friction") {
-  SceneRun run(R"(scree: 1
+  SceneRun run(
+      R"(scree: 1
 timestep: 2e-5
 walls:
   floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}
@@ -42,12 +43,12 @@ processes:
   pull: {process: gravity, acceleration: [0, 0, -9.81]}
   energy: {process: energy_ledger}
 )",
-               // Resting in the floor by its weight, so that it does not bounce.
-               "x,y,z,radius\n0,0," + digits(0.05 - 4.0 / 3.0 * std::numbers::pi * 1.25e-4 * 2500 * 9.81 / 1e6) +
-                   ",0.05\n");
+      // Resting in the floor by its weight, so that it does not bounce.
+      "x,y,z,radius\n0,0," + digits(0.05 - 4.0 / 3.0 * std::numbers::pi * 1.25e-4 * 2500 * 9.81 / 1e6) + ",0.05\n");
   run.step(10000);
   const double mass = 4.0 / 3.0 * std::numbers::pi * 1.25e-4 * 2500;
-  Measure measure("F4", "work of friction m v0^2/7 while a sphere slides until it rolls (Coulomb friction, I = 2/5 m R^2)");
+  Measure measure("F4",
+                  "work of friction m v0^2/7 while a sphere slides until it rolls (Coulomb friction, I = 2/5 m R^2)");
   measure.check("energy lost to friction", run.value("energy.friction"), mass / 7, 1e-3 * mass / 7);
   measure.check("share of the energy that is not accounted for", run.value("energy.residual_share"), 0, 1e-3);
 }
@@ -72,7 +73,8 @@ TEST_CASE("P-02 b: with friction and dashpots the box comes to rest and the acco
   run.engine().sums_wanted = run.engine().report_wanted = false;
   run.step(60000);
   const double in = run.value("energy.body"), lost = run.value("energy.friction") + run.value("energy.dashpot");
-  Measure measure("P-02 b, damped", "energy conservation: what gravity gave is lost to friction and dashpots, or stored");
+  Measure measure("P-02 b, damped",
+                  "energy conservation: what gravity gave is lost to friction and dashpots, or stored");
   measure.check("kinetic energy over work of gravity", run.value("energy.kinetic") / in, 0, 1e-3);
   measure.check("lost and stored over work of gravity", (lost + run.value("energy.strain")) / in, 1, 1e-3);
   measure.check("share that is not accounted for", run.value("energy.residual_share"), 0, 1e-3);
@@ -104,7 +106,8 @@ stages:
   CHECK(run.engine().broken.size() == 1);
   Measure measure("P-02 c", "elastic energy F^2/(2 k) of the bond at its strength F = 100 N, k = 1e6 N/m");
   measure.check("energy of the break", run.value("energy.bond_break"), 5e-3, 1e-3 * 5e-3);
-  measure.check("the same in the log of breaks", run.engine().broken.at(0).what.energy, run.value("energy.bond_break"), 0);
+  measure.check("the same in the log of breaks", run.engine().broken.at(0).what.energy, run.value("energy.bond_break"),
+                0);
   measure.check("work of the motion that was prescribed", run.value("energy.boundary"), 5e-3, 1e-3 * 5e-3);
   measure.check("energy of the break against what was stored ten cycles before", run.value("energy.bond_break"), stored,
                 3e-3 * 5e-3);
@@ -154,7 +157,8 @@ stages:
   const double start = run.value("energy.kinetic_shadow") + run.value("energy.bond");
   run.step(1000000);
   const double end = run.value("energy.kinetic_shadow") + run.value("energy.bond");
-  Measure measure("ledger", "1/2 m v(n-1/2) v(n+1/2) + 1/2 k x(n)^2 is constant under leapfrog for a linear oscillator");
+  Measure measure("ledger",
+                  "1/2 m v(n-1/2) v(n+1/2) + 1/2 k x(n)^2 is constant under leapfrog for a linear oscillator");
   measure.check("drift of the shadow energy over 1e6 cycles, relative", end / start - 1, 0, 1e-9);
   measure.check("residual over energy", run.value("energy.residual") / start, 0, 1e-9);
 }

@@ -176,6 +176,9 @@ typedef struct scree_contact_model {
   scree_law bonded[3], bonded_varying[3];
   void (*stiffness)(const void* rule, const scree_batch* batch, const scree_stiffness* out); /* [any thread] */
   scree_law normal_only[3]; /* the law of a rule that needs no tangential part; null if none */
+  /* [one thread] some inputs come from two pieces: `rule` holds them mixed word by word, piece1 and piece2 the words of
+   * each piece, NaN for what a wall does not give. Before `prepare`; changes inputs, or refuses. May be null. */
+  int (*mixed)(double* rule, const double* piece1, const double* piece2, uint32_t form, const scree_refusal* refusal);
 } scree_contact_model;
 
 /* ------------------------------------------------------------------ walls */

@@ -121,6 +121,7 @@ SCREE_NAMES(NamesBroken, broken);
 SCREE_NAMES(NamesReach, reach);
 SCREE_NAMES(NamesPrepare, prepare);
 SCREE_NAMES(NamesDerive, derive);
+SCREE_NAMES(NamesMixed, mixed);
 SCREE_NAMES(NamesEnergy, energy);
 SCREE_NAMES(NamesNormalOnly, normal_only);
 SCREE_NAMES(NamesLawNormal, law_normal);
@@ -145,6 +146,10 @@ concept Prepares = PreparesForm<L> || requires(L& l) {
 template <class L>
 concept Derives = requires(L& l, const Pair& p) {
   l.derive(p);
+};
+template <class L>
+concept Mixes = requires(L& l, const L& piece) {
+  l.mixed(piece, piece);
 };
 template <class L>
 concept HasEnergy = requires(const L& l, const SpinContact& c, const State<L>& s, const MomentResponse& r,
@@ -186,6 +191,8 @@ consteval bool valid_members() {
     SCREE_REFUSE("scree: 'prepare' must be 'void prepare()' or 'void prepare(uint32_t form)', not const");
   else if constexpr (NamesDerive<L> && !Derives<L>)
     SCREE_REFUSE("scree: 'derive' must be 'void derive(const Pair&)', not const");
+  else if constexpr (NamesMixed<L> && !Mixes<L>)
+    SCREE_REFUSE("scree: 'mixed' must be 'void mixed(const L& piece1, const L& piece2)', not const");
   else if constexpr (NamesEnergy<L> && !HasEnergy<L> && !HasBondEnergy<L>)
     SCREE_REFUSE(
         "scree: 'energy' must be 'void energy(const Contact&, const State& before, const State& after, const "

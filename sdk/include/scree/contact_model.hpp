@@ -14,6 +14,8 @@
 /// and then neither stored nor called:
 ///
 ///     void prepare();                          // all inputs are in place; may throw to refuse them
+///     void mixed(const L& piece1, const L& piece2);  // inputs from two pieces where no mix of single ones will do;
+///                                              // what a wall does not give is NaN; may throw to refuse
 ///     void derive(const Pair& p);              // properties that follow from radii or masses
 ///     double reach(const Pair& p) const;       // gap up to which the law runs, m (0 without it)
 ///     void energy(const Contact&, const State& before, const State& after, const Response&, Energies&) const;
@@ -54,6 +56,14 @@ int prepare(double* rule, uint32_t form, const scree_refusal* refusal) {
       law.prepare(form);
     else
       law.prepare();
+    std::memcpy(rule, &law, sizeof law);
+  });
+}
+template <class L>
+int mixed(double* rule, const double* piece1, const double* piece2, uint32_t, const scree_refusal* refusal) {
+  return guarded(refusal, [&] {
+    L law = read_rule<L>(rule);
+    law.mixed(read_rule<L>(piece1), read_rule<L>(piece2));
     std::memcpy(rule, &law, sizeof law);
   });
 }
@@ -175,6 +185,7 @@ class ModelTable {
       table_.derive = derive<L>;
       table_.derived_from_pair = properties_.pair_forms();
     }
+    if constexpr (shape::Mixes<L>) table_.mixed = mixed<L>;
     if constexpr (shape::Reaches<L>) table_.reach = reach<L>;
     if constexpr (shape::KnowsNormalOnly<L>) table_.needs = needs<L>;
     table_.stiffness = stiffness<L>;

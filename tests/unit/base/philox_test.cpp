@@ -142,3 +142,14 @@ TEST_CASE("random numbers never change from one release to the next") {
   CHECK(random.normal(12, 34) == -0x1.d815c132e0f5bp-2);
   CHECK(random.normal(189197, 9) == -0x1.2f1a826d1c5d1p+2);  // through plain_log
 }
+
+TEST_CASE("plain_arctan is within 1e-15 of the angle") {
+  double worst = 0;
+  for (double x = 1e-6; x < 1e6; x *= 1.0007) {
+    const long double exact = std::atan(static_cast<long double>(x));
+    worst = std::max(worst, static_cast<double>(std::abs((plain_arctan(x) - exact) / exact)));
+  }
+  CHECK(worst < 1e-15);
+  CHECK(plain_arctan(0) == 0);
+  CHECK(plain_arctan(INFINITY) == std::acos(0.0));
+}
