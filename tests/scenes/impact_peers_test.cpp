@@ -15,12 +15,13 @@ namespace {
 constexpr std::array<double, 4> phases{0.13, 0.38, 0.63, 0.88};
 
 struct Row {
-  int per_contact;               ///< steps in one contact time
-  std::array<double, 4> error;   ///< v_out/v_in - 1 at each start phase
-  double worst;                  ///< the largest of their sizes
+  int per_contact;              ///< steps in one contact time
+  std::array<double, 4> error;  ///< v_out/v_in - 1 at each start phase
+  double worst;                 ///< the largest of their sizes
 };
 
-/// LAMMPS 20220106, LIGGGHTS 3.8 and YADE 2023.02, which agree in all digits that are not rounding (tests/peers/impact.sh).
+/// LAMMPS 20220106, LIGGGHTS 3.8 and YADE 2023.02, which agree to every digit that is not rounding
+/// (tests/peers/impact.sh).
 constexpr Row rows[] = {
     {10, {-2.221084e-3, -1.629318e-3, 1.231983e-3, 2.541245e-3}, 2.541e-3},
     {20, {-3.807247e-4, -2.514881e-4, 2.264567e-4, 4.009784e-4}, 4.010e-4},
@@ -64,11 +65,11 @@ TEST_CASE("an elastic Hertz impact has the error that other codes of the same sc
     double worst = 0;
     for (std::size_t k = 0; k < phases.size(); ++k) {
       const double error = run.ball(2 * k + 2).velocity[0] / 0.5 - 1;
-      // A thousandth: their first two columns of digits beyond the fourth differ by rounding at 500 steps.
+      // A thousandth: at 500 steps they agree to five digits among themselves.
       CHECK(error == Approx(row.error[k]).epsilon(1e-3));
       worst = std::max(worst, std::abs(error));
     }
-    measure.check("worst restitution error of 4 phases, " + std::to_string(row.per_contact) + " steps per contact", worst,
-                  row.worst, 0.01 * row.worst);
+    measure.check("worst restitution error of 4 phases, " + std::to_string(row.per_contact) + " steps per contact",
+                  worst, row.worst, 0.01 * row.worst);
   }
 }
