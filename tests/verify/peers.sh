@@ -104,6 +104,14 @@ unset multiplot
 PLOT
 }
 
+versions() {
+  local package version text="scree $("${SCREE:-../../build/bin/scree}" --version | awk '{print $NF}')"
+  for package in lammps liggghts yade; do
+    version=$(dpkg-query -W -f '${Version}' $package 2> /dev/null) && text+=", $package $version"
+  done
+  echo "$text (the others as Debian ships them); $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)."
+}
+
 impact() {
   local page=${PAGE:-../../docs/peers.md} picture=${PICTURE:-pictures/impact_peers.svg} rows=$work/rows peers=() peer
   local balls=${BALLS:-8000} rounds=${ROUNDS:-7}
@@ -122,11 +130,13 @@ impact() {
     cat << TEXT
 # Impacts beside other codes
 
-Written by \`./dev verify peers\`. Scene S5 of [tests/peers/scenes.md](../tests/peers/scenes.md): spheres of 4 mm that meet in pairs, head-on at 1 m/s,
-elastic Hertz contact without friction, $((balls / 2)) pairs far apart, over four start phases of the step, 2 n + 10 steps at n steps per contact.
-The error is the largest |v_out/v_in - 1| over all balls. The time is wall time of the loop over the steps as each code tells it, set-up excluded (LAMMPS and LIGGGHTS
-leave out the first search for neighbours too), on one core, in turns: median of $rounds rounds, least and most in brackets, and in bold the time over that of scree, as the median
-of the rounds.
+Written by \`PARTS=impact ./dev verify peers\`. Scene S5 of [tests/peers/scenes.md](../tests/peers/scenes.md): spheres of 4 mm that meet in pairs, head-on at 1 m/s, with elastic Hertz contacts
+without friction; $((balls / 2)) pairs far apart, over four start phases of the step, 2 n + 10 steps at n steps per contact. The error is the largest |v_out/v_in - 1| over all balls.
+
+The time is wall time of the loop over the steps as each code tells it, on one core, in turns: the median of $rounds rounds, least and most in brackets, and in bold how many times that of
+scree, as the median of the rounds. Set-up is left out; so is the first search for neighbours by LAMMPS and LIGGGHTS, and YADE's first step, which sorts all balls. For scree it is counted.
+
+$(versions)
 
 TEXT
     table
