@@ -203,7 +203,7 @@ void Engine::forces() {
     BondOrder order{0, request.gap, request.again, {}};
     for (std::size_t k = 0; k < contacts.book.rules.size(); ++k)
       if (contacts.book.rules[k].name == request.rule) order.rule = static_cast<uint16_t>(k);
-    bond(order);
+    bond(order, false);
     bonds = true;
   }
   if (bonds) evaluate_forces();
@@ -410,7 +410,7 @@ void Engine::advance() {
   run_model_processes();
 }
 
-uint64_t Engine::bond(const BondOrder& order) {
+uint64_t Engine::bond(const BondOrder& order, bool lasting) {
   const double least = 2 * (2 * largest_radius_ + order.gap);
   for (int axis = 0; axis < 3; ++axis)
     if (cell.periodic[axis] && cell.length(axis) < least)
@@ -423,6 +423,7 @@ uint64_t Engine::bond(const BondOrder& order) {
   contacts.drop_lists();
   detect();
   const uint64_t made = contacts.bond(order, balls, cell, team);
+  if (lasting && made > 0) schedule_.begin_anew();
   detect();
   return made;
 }

@@ -100,8 +100,9 @@ class Engine {
   void before_edit();
   /// Row processes, kick, drift, model processes: to time n+1.
   void advance();
-  /// Bonds pairs at the positions of now; forces are evaluated again. How many were bonded.
-  uint64_t bond(const BondOrder& order);
+  /// Bonds pairs at the positions of now; forces are evaluated again. How many were bonded. With `lasting` the step is
+  /// then estimated with the effort of a first time.
+  uint64_t bond(const BondOrder& order, bool lasting);
   /// Call before an edit of velocities or balls: turns v(n-1/2) into v(n), so that the next kick is a half one.
   void synchronize();
   /// Call after an edit: the forces of this time are evaluated again, with increments of zero.

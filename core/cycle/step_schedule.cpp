@@ -18,7 +18,10 @@ double StepSchedule::closed() const { return std::max(2 * balls_, balls_ + walls
 NetworkQuery StepSchedule::plan(uint64_t cycle, const Motion& motion) {
   NetworkQuery query;
   query.sweeps = most_sweeps;
-  if (any_) {
+  // What is done to the scene between two cycles is one occasion.
+  if (made_ > 0 && cycle == last_) {
+    query.sweeps = static_cast<unsigned>(made_ - 1);
+  } else if (made_ > 0) {
     const double credit = share * static_cast<double>(cycle - last_) - base_cost;
     query.sweeps = static_cast<unsigned>(std::clamp(credit / sweep_cost, 0.0, static_cast<double>(most_sweeps)));
   }
@@ -28,7 +31,7 @@ NetworkQuery StepSchedule::plan(uint64_t cycle, const Motion& motion) {
   query.links.margin = margin_;
   balls_ = walls_ = 0;
   last_ = cycle;
-  any_ = true;
+  made_ = query.sweeps + 1;
   return query;
 }
 
@@ -42,7 +45,7 @@ void StepSchedule::restore(const State& state) {
   balls_ = state.balls;
   walls_ = state.walls;
   last_ = state.last;
-  any_ = state.any != 0;
+  made_ = state.made;
 }
 
 }  // namespace scree::core

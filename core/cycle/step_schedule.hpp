@@ -18,6 +18,8 @@ class StepSchedule {
   };
   /// Margin and sweeps of the estimate at this cycle, which is taken as made.
   NetworkQuery plan(uint64_t cycle, const Motion& motion);
+  /// The scene has changed for good, and the next estimate is worth the effort of the first.
+  void begin_anew() { made_ = 0; }
   /// Balls and walls have moved by at most this, m.
   void moved(double balls, double walls);
   bool due(uint64_t cycle) const { return closed() > margin_ || cycle - last_ >= longest; }
@@ -26,9 +28,9 @@ class StepSchedule {
   struct State {
     double margin = 0, balls = 0, walls = 0;
     uint64_t last = 0;
-    uint8_t any = 0;
+    uint64_t made = 0;  ///< 0: no estimate yet; else one more than the sweeps of the last
   };
-  State state() const { return {margin_, balls_, walls_, last_, static_cast<uint8_t>(any_)}; }
+  State state() const { return {margin_, balls_, walls_, last_, made_}; }
   void restore(const State& state);
 
  private:
@@ -36,7 +38,7 @@ class StepSchedule {
   static constexpr uint64_t longest = 2000;  ///< cycles between estimates, at most, so that the step can rise
   double margin_ = 0, balls_ = 0, walls_ = 0;
   uint64_t last_ = 0;
-  bool any_ = false;
+  uint64_t made_ = 0;
 };
 
 }  // namespace scree::core

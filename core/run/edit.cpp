@@ -183,7 +183,7 @@ void Simulation::edit_bond(const BondAction& action) {
       return (side[0][a] != 0 && side[1][b] != 0) || (side[0][b] != 0 && side[1][a] != 0);
     };
   }
-  const uint64_t made = engine.bond(order);
+  const uint64_t made = engine.bond(order, true);
   tell("bonded " + std::to_string(made) + " pairs under rule '" + action.rule.text + "'");
   if (made == 0)
     warn(action.rule.place.text() + ": warning: no pair under rule '" + action.rule.text +

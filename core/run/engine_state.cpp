@@ -62,7 +62,7 @@ void save_loop(const Engine::Loop& loop, ArchiveWriter& out) {
   packer.u64(loop.contact_updates);
   for (double value : {loop.schedule.margin, loop.schedule.balls, loop.schedule.walls}) packer.f64(value);
   packer.u64(loop.schedule.last);
-  packer.flag(loop.schedule.any != 0);
+  packer.u64(loop.schedule.made);
   out.put("loop", packer.bytes());
 }
 
@@ -105,7 +105,8 @@ Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
     if (!(*value >= 0 && std::isfinite(*value))) in.refuse("a length is not a finite number of at least 0");
   }
   loop.schedule.last = in.u64();
-  loop.schedule.any = in.flag();
+  loop.schedule.made = in.u64();
+  if (loop.schedule.made > 1000) in.refuse("an estimate of the step makes no sense");
   in.finish();
   if (loop.forces_current != 0 && !built) in.refuse("forces without lists");
   return loop;

@@ -23,28 +23,34 @@ struct Spec {
 
 /// Network `index`: two to six balls of 5 to 15 mm, each touching one or two that were there before, perhaps on a
 /// floor. Every pair has a stiffness of its own, over twelve decades where `decades` says so, and shear between none
-/// and 1.5.
+/// and 1.5. With bonds each pair of balls has a cement disc of its own size and stiffness too, sometimes alone.
 class Maker {
  public:
-  Maker(uint64_t index, double decades) : random_(64, "networks"), index_(index), decades_(decades) {}
+  Maker(uint64_t index, double decades, bool bonds)
+      : random_(64, "networks"), index_(index), decades_(decades), bonds_(bonds) {}
 
   Spec make(const TemporaryFolder& folder) {
     const std::size_t n = 2 + static_cast<std::size_t>(draw() * 5);
     const bool floor = draw() < 0.5;
     for (std::size_t k = 0; k < n; ++k) place(floor);
-    std::string balls, rules;
+    std::string balls, rules, glue;
     for (std::size_t k = 0; k < at_.size(); ++k) {
       const std::string name = "b" + std::to_string(k), file = name + ".csv";
       write_text(folder / file, "x,y,z,radius\n" + digits(at_[k][0]) + "," + digits(at_[k][1]) + "," +
                                     digits(at_[k][2]) + "," + digits(radius_[k]) + "\n");
       balls += "  " + name + ": {generator: file, path: " + file + ", density: " + digits(500 + 8000 * draw()) + "}\n";
-      for (std::size_t j = 0; j < k; ++j) rules += rule(name, "b" + std::to_string(j));
+      for (std::size_t j = 0; j < k; ++j) {
+        const std::string other = "b" + std::to_string(j);
+        rules += bonds_ ? bonded_rule(name, other) : rule(name, other);
+        if (bonds_) glue += (glue.empty() ? "" : ", ") + ("bond: {rule: " + name + "_" + other + "}");
+      }
       if (floor) rules += rule(name, "floor");
     }
     return {"scree: 1\n" +
                 std::string(floor ? "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\n" : "") +
                 "balls:\n" + balls + "contacts:\n" + rules +
-                "  - {name: itself, between: [balls, balls], model: none}\n" + "stages:\n  - go: [cycle: 1]\n",
+                "  - {name: itself, between: [balls, balls], model: none}\n" + "stages:\n  - go: [" +
+                (glue.empty() ? "cycle: 1" : glue) + "]\n",
             at_.size()};
   }
 
@@ -59,6 +65,15 @@ class Maker {
     const double kn = 1e6 * std::pow(10.0, decades_ * (draw() - 0.5)), ratio = draw() < 0.3 ? 0.0 : 1.5 * draw();
     return "  - {name: " + a + "_" + b + ", between: [" + a + ", " + b + "], model: linear, kn: " + digits(kn) +
            ", ks: " + digits(kn * ratio) + ", fric: 1e9}\n";
+  }
+  std::string bonded_rule(const std::string& a, const std::string& b) {
+    const auto stiffness = [&] { return 1e6 * std::pow(10.0, decades_ * (draw() - 0.5)); };
+    const double kn = draw() < 0.2 ? 0.0 : stiffness(), ratio = draw() < 0.3 ? 0.0 : 1.5 * draw();
+    const double disc = stiffness() / (3.14 * 1e-4), bond_ratio = draw() < 0.2 ? 0.0 : 1.5 * draw();
+    return "  - {name: " + a + "_" + b + ", between: [" + a + ", " + b + "], model: parallel_bond, kn: " + digits(kn) +
+           ", ks: " + digits(kn * ratio) + ", fric: 1e9, pb_kn: " + digits(disc) +
+           ", pb_ks: " + digits(disc * bond_ratio) + ", pb_rmul: " + digits(0.2 + 1.3 * draw()) +
+           ", pb_ten: .inf, pb_coh: .inf}\n";
   }
   Eigen::Vector3d direction() {
     Eigen::Vector3d v;
@@ -100,6 +115,7 @@ class Maker {
   const Random random_;
   const uint64_t index_;
   const double decades_;
+  const bool bonds_;
   uint64_t next_ = 0;
   std::vector<Eigen::Vector3d> at_;
   std::vector<double> radius_;
@@ -126,6 +142,8 @@ inline double true_limit(Simulation& simulation, double step) {
     engine.contacts.forget();
     engine.clock.dt_back = engine.clock.dt_law = 0;
     engine.forces_outdated();
+    for (std::size_t rule = 0; rule < engine.contacts.book.rules.size(); ++rule)
+      if (engine.contacts.book.rules[rule].can_bond()) engine.bond({static_cast<uint16_t>(rule), 0, true, {}}, false);
     engine.advance();
     engine.forces();
     Slices& slices = engine.contacts.slices();
@@ -169,10 +187,12 @@ inline Motion resistance(const Links& all, const Motion& m) {
     const Eigen::Vector3d slip = m.u[j] - m.u[i] - (link.arm[0] * m.w[i] + link.arm[1] * m.w[j]).cross(normal);
     const double along = slip.dot(normal);
     const Eigen::Vector3d force = link.kn * along * normal + link.ks * (slip - along * normal);
+    const Eigen::Vector3d turn = m.w[j] - m.w[i];
+    const Eigen::Vector3d moment = link.kb * turn + (link.kt - link.kb) * turn.dot(normal) * normal;
     f.u[i] -= force;
     f.u[j] += force;
-    f.w[i] -= link.arm[0] * normal.cross(force);
-    f.w[j] -= link.arm[1] * normal.cross(force);
+    f.w[i] -= link.arm[0] * normal.cross(force) + moment;
+    f.w[j] -= link.arm[1] * normal.cross(force) - moment;
   }
   return f;
 }
