@@ -153,7 +153,8 @@ void Engine::choose_step() {
                                      " s, leave it out for the automatic step, or say 'unsafe: true'");
     // A bond that is yet to be made may bring the stiffness; what is still without one then cannot advance.
     const auto& rules = contacts.book.rules;
-    const bool may_bond = std::any_of(rules.begin(), rules.end(), [](const BoundRule& rule) { return rule.can_bond(); });
+    const bool may_bond =
+        std::any_of(rules.begin(), rules.end(), [](const BoundRule& rule) { return rule.can_bond(); });
     if (step.step() == 0 && balls.size() > 0 && !may_bond) refuse_without_step();
   }
   if (balls.size() > 0 || !step.automatic()) return clock.change_step(step.step());
@@ -246,6 +247,7 @@ void Engine::evaluate_forces() {
   const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted, ledger.on};
   const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
   contact_updates_ += contacts.listed();
+  for (const WallList& list : contacts.wall_lists()) contact_updates_ += list.slots.size();
   forces_current_ = true;
   if (ledger.on) ledger.add_contacts(contacts.energy());
   for (const Break& one : contacts.take_breaks()) broken.push_back({clock.cycle, clock.time(), one});

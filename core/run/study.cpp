@@ -54,9 +54,8 @@ class Studying {
       for (const Quantity& quantity : scene_.quantities) add_quantity(quantity.name);
     if (study_.quantities.empty())
       study_.remarks.push_back(
-          "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories are "
-          "compared.");
-    study_.remarks.push_back("The energy residual is left out: no quantity of the scene keeps an energy account.");
+          "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories and energy "
+          "are compared.");
   }
 
   Study study() {
@@ -108,12 +107,18 @@ class Studying {
     change.set = point.set;
     if (seed) change.set.emplace_back("seed", std::to_string(*seed));
     Scene scene = changed_scene(options_.read, catalogue_, change, cycle_length_);
+    add_energy(scene);
     // What is measured beside the expectations is read where they are.
     for (std::size_t k = declared_; k < study_.quantities.size(); ++k) {
       Expect more;
       more.text = more.source = study_.quantities[k];
       more.quantity = std::make_shared<Formula>(study_.quantities[k], scene.vars, Place{"--quantity", 0, 0});
       more.low = -INFINITY;
+      if (more.text == energy_residual) {
+        more.equals = 0;
+        more.tolerance = INFINITY;
+        more.source = "energy is conserved";
+      }
       scene.expect.push_back(std::move(more));
     }
     return scene;
@@ -129,6 +134,7 @@ class Studying {
     StudyPoint automatic;
     automatic.kind = StudyPoint::Kind::automatic;
     automatic.name = "automatic";
+    keep_energy(automatic);
     first_step(automatic);
     options_.note("automatic step: a whole run with it");
     run_full(automatic);
@@ -147,6 +153,36 @@ class Studying {
     find_short(automatic, run.model_time);
     study_.points.push_back(automatic);
     lay_out();
+  }
+
+  // All points keep the energy account, whose cost is then the same share of each, or none does.
+  void keep_energy(const StudyPoint& automatic) {
+    with_energy_ = true;
+    std::string why = "there is no plug-in 'energy_ledger'";
+    if (catalogue_.exists(Kind::process, "energy_ledger")) try {
+        const Hush hush(options_.log);
+        begin_scene(scene_for(automatic), catalogue_, quiet_options());
+        add_quantity(energy_residual);
+        return;
+      } catch (const Refusal& refusal) {
+        why = refusal.what();
+      }
+    with_energy_ = false;
+    study_.remarks.push_back("The energy residual is left out: " + why);
+  }
+
+  void add_energy(Scene& scene) const {
+    if (!with_energy_) return;
+    const Component& ledger = catalogue_.open(Kind::process, "energy_ledger");
+    const auto traces = [](const ProcessUse& use) {
+      return (use.process.component->process().flags & SCREE_TRACES_ENERGY) != 0;
+    };
+    if (std::any_of(scene.processes.begin(), scene.processes.end(), traces)) return;
+    std::string name = "energy";
+    while (std::any_of(scene.processes.begin(), scene.processes.end(),
+                       [&](const ProcessUse& use) { return use.name == name; }))
+      name += "_";
+    scene.processes.push_back({name, {&ledger, {}, 0, {}}, {}});
   }
 
   // The step of the first cycle, and the scene's own, which lengths in cycles are meant for.
@@ -307,7 +343,10 @@ class Studying {
   static std::string folder_name(const StudyPoint& point) {
     std::string name = point.name;
     for (char& c : name)
-      if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '=' && c != '-') c = '_';
+      if (c == '*')
+        c = 'x';
+      else if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '=' && c != '-')
+        c = '_';
     return name.substr(0, 100);
   }
 
@@ -350,6 +389,7 @@ class Studying {
   Horizon horizon_;
   PeriodicCell cell_;
   std::vector<ExpectationResult> expected_;
+  bool with_energy_ = false;
   std::size_t declared_ = 0;  ///< how many of the quantities are those of `expect`
   double cycle_length_ = 0;
 };

@@ -176,7 +176,7 @@ std::string study_report(const Study& study) {
 }
 
 std::string study_plot(const Study& study) {
-  std::string blocks, plot;
+  std::string blocks, wall, counted;
   for (std::size_t n = 0; n < study.norms.size(); ++n) {
     const StudyNorm& norm = study.norms[n];
     // Filled where resolved, hollow where the reference is no better.
@@ -186,24 +186,34 @@ std::string study_plot(const Study& study) {
         const StudyNorm::Entry& entry = norm.entries[k];
         const StudyCost cost = cost_of(study.points[k]);
         if (!entry.error || *entry.error <= 0 || entry.resolved != resolved || cost.wall <= 0) continue;
-        rows += fmt::format("{} {} {} {} \"{}\"\n", cost.wall, *entry.error, cost.least, cost.most,
+        rows += fmt::format("{} {} {} {} {} \"{}\"\n", cost.wall, *entry.error, cost.least, cost.most,
+                            cost.run->contact_updates,
                             study.points[k].kind == StudyPoint::Kind::ladder ? "" : study.points[k].name);
       }
       if (rows.empty()) continue;
       const std::string name = fmt::format("$points{}{}", n, resolved ? "a" : "b");
       blocks += name + " << EOD\n" + rows + "EOD\n";
-      plot += plot.empty() ? "plot " : ", \\\n     ";
-      plot += fmt::format("{} using 1:2:3:4 with xerrorbars pt {} lc {} {}", name, resolved ? 7 : 6, n + 1,
-                          resolved ? "title '" + norm_title(norm) + "'" : "notitle");
-      plot += fmt::format(", \\\n     {} using 1:2:5 with labels offset 0,0.8 font ',9' notitle", name);
+      const std::string mark = fmt::format("pt {} lc {}", resolved ? 7 : 6, n + 1);
+      const std::string title = resolved ? "title '" + norm_title(norm) + "'" : "notitle";
+      const auto panel = [&](std::string& plot, const std::string& with, const std::string& x, const std::string& key) {
+        plot += plot.empty() ? "plot " : ", \\\n     ";
+        plot += name + with + " " + mark + " " + key + ", \\\n     " + name + " using " + x +
+                ":2:6 with labels offset 0,0.8 font ',9' notitle";
+      };
+      panel(wall, " using 1:2:3:4 with xerrorbars", "1", title);
+      panel(counted, " using 5:2 with points", "5", title);
     }
   }
-  if (plot.empty()) return "";
-  return "set terminal svg size 800,600 dynamic background 'white'\nset output 'study.svg'\nset logscale xy\n"
-         "set format xy '10^{%T}'\nset xlabel 'wall time, s'\nset ylabel 'error'\nset grid\n"
-         "set key outside below\nset title 'filled: resolved; hollow: below three times the uncertainty of the "
-         "reference' font ',10'\n" +
-         blocks + plot + "\n";
+  if (wall.empty()) return "";
+  return "set terminal svg size 1100,560 dynamic background 'white' noenhanced\nset output 'study.svg'\nset logscale "
+         "xy\n"
+         "set format xy '%.0e'\nset ylabel 'error'\nset grid\nset key bottom left\nset offsets graph 0.1, graph 0.1, "
+         "0, 0\n" +
+         blocks +
+         "set multiplot layout 1,2 title 'filled: resolved; hollow: below three times the uncertainty of the "
+         "reference' "
+         "font ',10'\nset xlabel 'wall time, s'\n" +
+         wall + "\nset xlabel 'contact updates'\n" + counted + "\nunset multiplot\n";
 }
 
 std::string draw(const std::string& folder, const std::string& script) {
