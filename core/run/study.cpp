@@ -150,16 +150,27 @@ class Studying {
                     "compare with: " +
                         run.message);
     study_.automatic = std::min(study_.automatic, run.step);
-    find_short(automatic, run.model_time);
     study_.points.push_back(automatic);
+    find_short(automatic, run.model_time);
     lay_out();
+  }
+
+  static bool traces_energy(const Component& process) { return (process.process().flags & SCREE_TRACES_ENERGY) != 0; }
+
+  const Component* energy_account() const {
+    for (const std::string& name : catalogue_.names(Kind::process)) try {
+        const Component& process = catalogue_.open(Kind::process, name);
+        if (traces_energy(process)) return &process;
+      } catch (const Refusal&) {
+        // A library that is refused is told of where a scene names it.
+      }
+    return nullptr;
   }
 
   // All points keep the energy account, whose cost is then the same share of each, or none does.
   void keep_energy(const StudyPoint& automatic) {
-    with_energy_ = true;
-    std::string why = "there is no plug-in 'energy_ledger'";
-    if (catalogue_.exists(Kind::process, "energy_ledger")) try {
+    std::string why = "no plug-in keeps an energy account";
+    if ((ledger_ = energy_account()) != nullptr) try {
         const Hush hush(options_.log);
         begin_scene(scene_for(automatic), catalogue_, quiet_options());
         add_quantity(energy_residual);
@@ -167,22 +178,19 @@ class Studying {
       } catch (const Refusal& refusal) {
         why = refusal.what();
       }
-    with_energy_ = false;
+    ledger_ = nullptr;
     study_.remarks.push_back("The energy residual is left out: " + why);
   }
 
   void add_energy(Scene& scene) const {
-    if (!with_energy_) return;
-    const Component& ledger = catalogue_.open(Kind::process, "energy_ledger");
-    const auto traces = [](const ProcessUse& use) {
-      return (use.process.component->process().flags & SCREE_TRACES_ENERGY) != 0;
-    };
-    if (std::any_of(scene.processes.begin(), scene.processes.end(), traces)) return;
+    if (ledger_ == nullptr) return;
+    const auto& uses = scene.processes;
+    if (std::any_of(uses.begin(), uses.end(),
+                    [](const ProcessUse& use) { return traces_energy(*use.process.component); }))
+      return;
     std::string name = "energy";
-    while (std::any_of(scene.processes.begin(), scene.processes.end(),
-                       [&](const ProcessUse& use) { return use.name == name; }))
-      name += "_";
-    scene.processes.push_back({name, {&ledger, {}, 0, {}}, {}});
+    while (std::any_of(uses.begin(), uses.end(), [&](const ProcessUse& use) { return use.name == name; })) name += "_";
+    scene.processes.push_back({name, {ledger_, {}, 0, {}}, {}});
   }
 
   // The step of the first cycle, and the scene's own, which lengths in cycles are meant for.
@@ -389,8 +397,8 @@ class Studying {
   Horizon horizon_;
   PeriodicCell cell_;
   std::vector<ExpectationResult> expected_;
-  bool with_energy_ = false;
-  std::size_t declared_ = 0;  ///< how many of the quantities are those of `expect`
+  const Component* ledger_ = nullptr;  ///< the process that keeps the energy account, null: none does
+  std::size_t declared_ = 0;           ///< how many of the quantities are those of `expect`
   double cycle_length_ = 0;
 };
 
