@@ -247,6 +247,7 @@ void Engine::evaluate_forces() {
   const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted, ledger.on};
   const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
   contact_updates_ += contacts.listed();
+  for (const WallList& list : contacts.wall_lists()) contact_updates_ += list.slots.size();
   forces_current_ = true;
   if (ledger.on) ledger.add_contacts(contacts.energy());
   for (const Break& one : contacts.take_breaks()) broken.push_back({clock.cycle, clock.time(), one});

@@ -3,6 +3,7 @@
 
 #include "core/contact/network_bound.hpp"
 #include "core/cycle/engine.hpp"
+#include "core/cycle/impact_share.hpp"
 
 // The estimate that the step is taken from.
 
@@ -10,9 +11,8 @@ namespace scree::core {
 
 namespace {
 
-constexpr double impact_share = 0.3, accurate_share = 0.1;  ///< of the limit of a pair that collides
-constexpr double birth_depth = 0.05;                        ///< of the smaller radius, in one cycle
-constexpr double few_contacts = 2;                          ///< per ball: below, collisions are what happens
+constexpr double birth_depth = 0.05;  ///< of the smaller radius, in one cycle
+constexpr double few_contacts = 2;    ///< per ball: below, collisions are what happens
 
 }  // namespace
 

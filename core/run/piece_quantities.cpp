@@ -62,25 +62,25 @@ const WallWord wall_words[] = {
 
 struct BallWord {
   const char *name, *unit;
-  bool vector;
+  bool vector, pass;  ///< pass: what is read is made by a pass over all balls
   double (*read)(const Engine&, Instant&, std::size_t row, std::size_t axis);
 };
 Column after(Column first, std::size_t c) { return static_cast<Column>(static_cast<std::size_t>(first) + c); }
 const BallWord ball_words[] = {
-    {"position", "m", true,
+    {"position", "m", true, false,
      [](const Engine& e, Instant&, std::size_t row, std::size_t c) { return e.balls[after(Column::x, c)][row]; }},
-    {"velocity", "m/s", true,
+    {"velocity", "m/s", true, true,
      [](const Engine&, Instant& now, std::size_t row, std::size_t c) { return now.observation().velocity[c][row]; }},
-    {"spin", "rad/s", true,
+    {"spin", "rad/s", true, true,
      [](const Engine&, Instant& now, std::size_t row, std::size_t c) {
        const auto& spin = now.observation().spin[c];
        return row < spin.size() ? spin[row] : 0.0;
      }},
-    {"force", "N", true,
+    {"force", "N", true, true,
      [](const Engine&, Instant& now, std::size_t row, std::size_t c) { return now.observation().force[c][row]; }},
-    {"radius", "m", false,
+    {"radius", "m", false, false,
      [](const Engine& e, Instant&, std::size_t row, std::size_t) { return e.balls[Column::radius][row]; }},
-    {"mass", "kg", false,
+    {"mass", "kg", false, false,
      [](const Engine& e, Instant&, std::size_t row, std::size_t) { return e.balls[Column::mass][row]; }},
 };
 
@@ -157,10 +157,11 @@ std::optional<Published> find_ball_quantity(const std::string& name, Engine& eng
   const auto [word, axis] = axis_of(parts.rest);
   for (const BallWord& one : ball_words)
     if (word == one.name && one.vector == (axis >= 0))
-      return Published{one.unit, {false, false, true}, [&engine, &now, &one, id, c = static_cast<std::size_t>(axis)] {
-                         const uint32_t row = now.row_of(*id);
-                         return row != no_row ? one.read(engine, now, row, c) : std::nan("");
-                       }};
+      return Published{
+          one.unit, {false, false, one.pass}, [&engine, &now, &one, id, c = static_cast<std::size_t>(axis)] {
+            const uint32_t row = now.row_of(*id);
+            return row != no_row ? one.read(engine, now, row, c) : std::nan("");
+          }};
   return std::nullopt;
 }
 

@@ -16,7 +16,7 @@ namespace scree::core {
 /// `engine.forces()`, with `sums_wanted` and `report_wanted` as `needs` says. Reading never changes the trajectory.
 ///
 /// Extremes run from the start over the cycles that `follow` looks at: every cycle for numbers that cost nothing
-/// (walls, processes, counts), every tenth for those that need a pass over balls or contacts, and the present one. So
+/// (walls, positions of single balls, processes, counts), every tenth for those that need a pass over balls or contacts, and the present one. So
 /// they do not depend on what is recorded. [one thread]
 class Quantities {
  public:

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/base/log.hpp"
+#include "core/run/error_estimate.hpp"
 #include "core/run/explain.hpp"
 #include "core/run/session.hpp"
 #include "core/run/state.hpp"
@@ -24,18 +25,6 @@ std::optional<Summary::Error> measured_error(const std::vector<ExpectationResult
                            "largest difference among expectations, relative to the reference: " + result.text};
   }
   return error;
-}
-
-// Before any reference: leapfrog turns a frequency w into (2/dt) asin(w dt/2), too high by (w dt)^2/24 of it to leading
-// order, and no mode of the contacts is faster than 2/limit.
-std::optional<Summary::Error> estimated_error(const Engine& engine) {
-  const double limit = engine.step.bound().step;
-  if (!(limit > 0) || !(engine.clock.dt > 0)) return std::nullopt;
-  const double ratio = engine.clock.dt / limit;
-  return Summary::Error{
-      ratio * ratio / 6, std::nullopt,
-      "a priori: relative frequency error (w dt)^2/24 of the fastest contact mode, w = 2/certified, for contacts that "
-      "last; impacts may be worse: scree study measures it"};
 }
 
 bool finite(const double* values, std::size_t count) {
@@ -96,7 +85,7 @@ Summary Session::summary() const {
   s.quantities = values_;
   s.expectations = expectations_;
   s.error = measured_error(expectations_);
-  if (!s.error) s.error = estimated_error(engine);
+  if (!s.error) s.error = error_before_any_reference(engine);
   s.state_hash = engine.state_hash();
   s.left_out = left_out(*simulation_);
   for (const Component* component : simulation_->catalogue.opened())

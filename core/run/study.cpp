@@ -54,9 +54,8 @@ class Studying {
       for (const Quantity& quantity : scene_.quantities) add_quantity(quantity.name);
     if (study_.quantities.empty())
       study_.remarks.push_back(
-          "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories are "
-          "compared.");
-    study_.remarks.push_back("The energy residual is left out: no quantity of the scene keeps an energy account.");
+          "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories and energy "
+          "are compared.");
   }
 
   Study study() {
@@ -108,12 +107,18 @@ class Studying {
     change.set = point.set;
     if (seed) change.set.emplace_back("seed", std::to_string(*seed));
     Scene scene = changed_scene(options_.read, catalogue_, change, cycle_length_);
+    add_energy(scene);
     // What is measured beside the expectations is read where they are.
     for (std::size_t k = declared_; k < study_.quantities.size(); ++k) {
       Expect more;
       more.text = more.source = study_.quantities[k];
       more.quantity = std::make_shared<Formula>(study_.quantities[k], scene.vars, Place{"--quantity", 0, 0});
       more.low = -INFINITY;
+      if (more.text == energy_residual) {
+        more.equals = 0;
+        more.tolerance = INFINITY;
+        more.source = "energy is conserved";
+      }
       scene.expect.push_back(std::move(more));
     }
     return scene;
@@ -129,6 +134,7 @@ class Studying {
     StudyPoint automatic;
     automatic.kind = StudyPoint::Kind::automatic;
     automatic.name = "automatic";
+    keep_energy(automatic);
     first_step(automatic);
     options_.note("automatic step: a whole run with it");
     run_full(automatic);
@@ -144,9 +150,47 @@ class Studying {
                     "compare with: " +
                         run.message);
     study_.automatic = std::min(study_.automatic, run.step);
-    find_short(automatic, run.model_time);
     study_.points.push_back(automatic);
+    find_short(automatic, run.model_time);
     lay_out();
+  }
+
+  static bool traces_energy(const Component& process) { return (process.process().flags & SCREE_TRACES_ENERGY) != 0; }
+
+  const Component* energy_account() const {
+    for (const std::string& name : catalogue_.names(Kind::process)) try {
+        const Component& process = catalogue_.open(Kind::process, name);
+        if (traces_energy(process)) return &process;
+      } catch (const Refusal&) {
+        // A library that is refused is told of where a scene names it.
+      }
+    return nullptr;
+  }
+
+  // All points keep the energy account, whose cost is then the same share of each, or none does.
+  void keep_energy(const StudyPoint& automatic) {
+    std::string why = "no plug-in keeps an energy account";
+    if ((ledger_ = energy_account()) != nullptr) try {
+        const Hush hush(options_.log);
+        begin_scene(scene_for(automatic), catalogue_, quiet_options());
+        add_quantity(energy_residual);
+        return;
+      } catch (const Refusal& refusal) {
+        why = refusal.what();
+      }
+    ledger_ = nullptr;
+    study_.remarks.push_back("The energy residual is left out: " + why);
+  }
+
+  void add_energy(Scene& scene) const {
+    if (ledger_ == nullptr) return;
+    const auto& uses = scene.processes;
+    if (std::any_of(uses.begin(), uses.end(),
+                    [](const ProcessUse& use) { return traces_energy(*use.process.component); }))
+      return;
+    std::string name = "energy";
+    while (std::any_of(uses.begin(), uses.end(), [&](const ProcessUse& use) { return use.name == name; })) name += "_";
+    scene.processes.push_back({name, {ledger_, {}, 0, {}}, {}});
   }
 
   // The step of the first cycle, and the scene's own, which lengths in cycles are meant for.
@@ -307,7 +351,10 @@ class Studying {
   static std::string folder_name(const StudyPoint& point) {
     std::string name = point.name;
     for (char& c : name)
-      if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '=' && c != '-') c = '_';
+      if (c == '*')
+        c = 'x';
+      else if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.' && c != '=' && c != '-')
+        c = '_';
     return name.substr(0, 100);
   }
 
@@ -350,7 +397,8 @@ class Studying {
   Horizon horizon_;
   PeriodicCell cell_;
   std::vector<ExpectationResult> expected_;
-  std::size_t declared_ = 0;  ///< how many of the quantities are those of `expect`
+  const Component* ledger_ = nullptr;  ///< the process that keeps the energy account, null: none does
+  std::size_t declared_ = 0;           ///< how many of the quantities are those of `expect`
   double cycle_length_ = 0;
 };
 

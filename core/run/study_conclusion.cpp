@@ -5,6 +5,7 @@
 
 #include "core/run/study.hpp"
 #include "core/run/study_files.hpp"
+#include "core/run/study_judge.hpp"
 
 namespace scree::core {
 
@@ -18,7 +19,8 @@ std::optional<std::size_t> index_of(const Study& study, const std::function<bool
 
 std::string share(const StudyNorm& norm, double error) {
   if (norm.trajectory) return fmt::format("{:.2g} R", error);
-  return norm.relative ? fmt::format("{:.2g} %", 100 * error) : fmt::format("{:.2g}", error);
+  return norm.relative || norm.name == energy_residual ? fmt::format("{:.2g} %", 100 * error)
+                                                       : fmt::format("{:.2g}", error);
 }
 
 // "deepest within 0.4 %, trajectories within 1e-3 R"
@@ -28,8 +30,10 @@ std::string errors_at(const Study& study, std::size_t point) {
     const StudyNorm::Entry& entry = norm.entries[point];
     if (!entry.error || !std::isfinite(*entry.error)) continue;
     const double bound = entry.resolved ? *entry.error + norm.uncertainty : *entry.error + 3 * norm.uncertainty;
-    out += (out.empty() ? "" : ", ") + (norm.trajectory ? std::string("short trajectories") : norm.name) + " within " +
-           share(norm, bound);
+    const std::string name = norm.trajectory                ? "short trajectories"
+                             : norm.name == energy_residual ? "the energy balance"
+                                                            : norm.name;
+    out += (out.empty() ? "" : ", ") + name + " within " + share(norm, bound);
   }
   return out.empty() ? "no error that could be measured" : out;
 }

@@ -175,35 +175,59 @@ std::string study_report(const Study& study) {
   return out;
 }
 
-std::string study_plot(const Study& study) {
-  std::string blocks, plot;
-  for (std::size_t n = 0; n < study.norms.size(); ++n) {
-    const StudyNorm& norm = study.norms[n];
-    // Filled where resolved, hollow where the reference is no better.
-    for (const bool resolved : {true, false}) {
-      std::string rows;
-      for (std::size_t k = 0; k < study.points.size(); ++k) {
-        const StudyNorm::Entry& entry = norm.entries[k];
-        const StudyCost cost = cost_of(study.points[k]);
-        if (!entry.error || *entry.error <= 0 || entry.resolved != resolved || cost.wall <= 0) continue;
-        rows += fmt::format("{} {} {} {} \"{}\"\n", cost.wall, *entry.error, cost.least, cost.most,
-                            study.points[k].kind == StudyPoint::Kind::ladder ? "" : study.points[k].name);
-      }
-      if (rows.empty()) continue;
-      const std::string name = fmt::format("$points{}{}", n, resolved ? "a" : "b");
-      blocks += name + " << EOD\n" + rows + "EOD\n";
-      plot += plot.empty() ? "plot " : ", \\\n     ";
-      plot += fmt::format("{} using 1:2:3:4 with xerrorbars pt {} lc {} {}", name, resolved ? 7 : 6, n + 1,
-                          resolved ? "title '" + norm_title(norm) + "'" : "notitle");
-      plot += fmt::format(", \\\n     {} using 1:2:5 with labels offset 0,0.8 font ',9' notitle", name);
-    }
+namespace {
+
+/// Numbers of gnuplot's symbols: filled where resolved, hollow where the reference is no better.
+int symbol(StudyPoint::Kind kind, bool resolved) {
+  const int filled = kind == StudyPoint::Kind::automatic ? 13
+                     : kind == StudyPoint::Kind::beyond  ? 9
+                     : kind == StudyPoint::Kind::usual   ? 5
+                                                         : 7;
+  return resolved ? filled : filled - 1;
+}
+
+std::string plot_rows(const Study& study, const StudyNorm& norm) {
+  std::string rows;
+  for (std::size_t k = 0; k < study.points.size(); ++k) {
+    const StudyPoint& point = study.points[k];
+    const StudyNorm::Entry& entry = norm.entries[k];
+    const StudyCost cost = cost_of(point);
+    if (!entry.error || *entry.error <= 0 || cost.wall <= 0) continue;
+    const bool named = point.kind == StudyPoint::Kind::own || point.kind == StudyPoint::Kind::varied;
+    rows += fmt::format("{} {} {} {} {} {} \"{}\"\n", cost.wall, *entry.error, cost.least, cost.most,
+                        cost.run->contact_updates, symbol(point.kind, entry.resolved), named ? point.name : "");
   }
-  if (plot.empty()) return "";
-  return "set terminal svg size 800,600 dynamic background 'white'\nset output 'study.svg'\nset logscale xy\n"
-         "set format xy '10^{%T}'\nset xlabel 'wall time, s'\nset ylabel 'error'\nset grid\n"
-         "set key outside below\nset title 'filled: resolved; hollow: below three times the uncertainty of the "
-         "reference' font ',10'\n" +
-         blocks + plot + "\n";
+  return rows;
+}
+
+}  // namespace
+
+std::string study_plot(const Study& study) {
+  std::string blocks, wall, counted;
+  for (std::size_t n = 0; n < study.norms.size(); ++n) {
+    const std::string rows = plot_rows(study, study.norms[n]);
+    if (rows.empty()) continue;
+    const std::string name = fmt::format("$points{}", n), color = fmt::format("lc {}", n + 1);
+    blocks += name + " << EOD\n" + rows + "EOD\n";
+    const auto panel = [&](std::string& plot, const std::string& x) {
+      plot += plot.empty() ? "plot " : ", \\\n     ";
+      plot += "NaN with points pt 7 " + color + " title '" + norm_title(study.norms[n]) + "', \\\n     " + name +
+              " using " + x + ":2:6 with points pt variable " + color + " notitle, \\\n     " + name + " using " + x +
+              ":2:7 with labels offset 0,0.8 font ',9' notitle";
+    };
+    panel(wall, "1");
+    wall += ", \\\n     " + name + " using 1:2:3:4 with xerrorbars pt 0 " + color + " notitle";
+    panel(counted, "5");
+  }
+  if (wall.empty()) return "";
+  return "set terminal svg size 1100,600 dynamic background 'white' noenhanced\nset output 'study.svg'\nset logscale "
+         "xy\n"
+         "set format xy '%.0e'\nset xtics 10\nset ytics 10\nset ylabel 'error'\nset grid\nset key outside below\n" +
+         blocks +
+         "set multiplot layout 1,2 title 'circles: ladder of steps; square: 0.8 sqrt(m/k); triangle: twice the "
+         "automatic "
+         "step; diamond: automatic; hollow: not resolved' font ',11'\nset xlabel 'wall time, s'\n" +
+         wall + "\nset xlabel 'contact updates'\n" + counted + "\nunset multiplot\n";
 }
 
 std::string draw(const std::string& folder, const std::string& script) {

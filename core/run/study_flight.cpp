@@ -71,6 +71,7 @@ class Collisions {
     walls_ = walls;
     seen_ = true;
   }
+  bool any() const { return count_ > 0; }
   double per_ball(std::size_t balls) const { return balls > 0 ? count_ / static_cast<double>(balls) : 0; }
 
  private:
@@ -120,11 +121,11 @@ Horizon find_horizon(const Scene& scene, Scene second, Catalogue& catalogue, con
     collisions.look(one->engine);
     const double now = one->engine.clock.time();
     if (collisions.per_ball(one->engine.balls.size()) >= 3) take(now, "each ball has collided three times on average");
+    const DiagonalRule usual = diagonal_rule(one->engine.contacts, one->engine.balls, one->engine.cell);
+    if (usual.step > 0 && (out.usual_step == 0 || usual.step < out.usual_step)) out.usual_step = usual.step;
+    out.dashpots = out.dashpots || usual.dashpots;
     if (cycle % 10 == 0) {
       refuse_signal();
-      const DiagonalRule usual = diagonal_rule(one->engine.contacts, one->engine.balls, one->engine.cell);
-      if (usual.step > 0 && (out.usual_step == 0 || usual.step < out.usual_step)) out.usual_step = usual.step;
-      out.dashpots = out.dashpots || usual.dashpots;
       if (largest_distance(one->engine, twin->engine) >= 1e-3 * out.radius) {
         take(now / 4, "a quarter of the time in which a change of 1e-10 R grows to 1e-3 R");
         break;
@@ -133,6 +134,7 @@ Horizon find_horizon(const Scene& scene, Scene second, Catalogue& catalogue, con
     one->engine.advance();
     twin->engine.advance();
   }
+  out.impacts = collisions.any();
   return out;
 }
 

@@ -13,6 +13,7 @@ struct Horizon {
   double usual_step = 0;      ///< s, the least sqrt(m/k) over balls and axes that was met; 0: nothing touched
   double first_step = 0;      ///< s, the step of the first cycle
   bool dashpots = false;      ///< contacts have dashpots, or balls are damped
+  bool impacts = false;       ///< contacts began
   bool tangential = false;    ///< a rule has a tangential part, so contacts can slide
   double radius = 0;          ///< m, the median
   std::vector<double> mass;   ///< in order of ids, kg

@@ -1,4 +1,5 @@
 // `scree study`: orders it measures on scenes whose order is known, what it writes, and what it refuses.
+#include <cstdlib>
 #include <filesystem>
 #include <sstream>
 
@@ -71,6 +72,8 @@ TEST_CASE("a smooth scene converges with order 2, in trajectory and quantity", "
   REQUIRE(end.code == 0);
   CHECK(after(end.out, "trajectory: order ") == Approx(2).margin(0.2));
   CHECK(after(end.out, "balls.1.position.z: order ") == Approx(2).margin(0.2));
+  // Contacts that stay closed balance to rounding.
+  CHECK(has(end.out, "energy.residual_share.peak: no order (fewer than three rungs have a small error"));
   CHECK(has(end.out, "For this scene the automatic step ("));
   CHECK(has(end.out, "half of it gives balls.1.position.z within "));
   const std::string report = read_text(at.folder / "scene.study/study.md");
@@ -98,6 +101,8 @@ TEST_CASE("two studies differ in wall time alone", "[study]") {
   CHECK(without_wall(first) == without_wall(read_text(at.folder / "scene.study/study.csv")));
   CHECK(without_wall(read_text(at.folder / "scene.study.1/study.csv")) == without_wall(first));
   CHECK(has(first, "contacts.0.kn=5e4,varied,"));
+  for (const char* point : {"automaticx2", "automatic_2", "automatic_1", "contacts.0.kn=5e4"})
+    CHECK(std::filesystem::exists(at.folder / (std::string("scene.study/") + point + "/summary.json")));
   CHECK_FALSE(std::filesystem::exists(at.folder / "scene.out"));
 }
 
@@ -113,6 +118,35 @@ TEST_CASE("a step that fails is a result and the study goes on", "[study]") {
   CHECK(has(table, "automatic*2,beyond,"));
   CHECK(has(table, "numerical_stop"));
   CHECK(has(table, "automatic/4,ladder,"));
+}
+
+TEST_CASE("the worst of many phases shows the order of an impact", "[study]") {
+  const std::string scenes = support::source_dir() + "/tests/verify/study/";
+  const TemporaryFolder folder;
+  const ProgramEnd end = scree({"study", scenes + "co1_pairs.yaml", "-j", "1", "--repeats", "1"}, folder.path());
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  CHECK(after(end.out, "trajectory: order ") == Approx(2).margin(0.2));
+  CHECK(after(end.out, "least_peak: order ") == Approx(2).margin(0.2));
+  CHECK(after(end.out, "restitution: order ") == Approx(2.5).margin(0.2));
+  CHECK(after(end.out, "energy.residual_share.peak: order ") == Approx(2).margin(0.3));
+  CHECK(has(read_text(folder / "co1_pairs.study/study.md"), "| 0.8 sqrt(m/k) | "));
+}
+
+TEST_CASE("Ctrl-C ends a study, and what is finished is kept", "[study]") {
+  const TemporaryFolder folder;
+  const std::string scene = support::source_dir() + "/tests/verify/study/box_30.yaml";
+  // So many rungs would take days.
+  const std::string line = "timeout -s INT --preserve-status 3 '" + support::binary_dir() + "/bin/scree' study '" +
+                           scene + "' -j 1 --rungs 40 --repeats 1 -o '" + folder.path() + "/s' > /dev/null 2> '" +
+                           folder.path() + "/err'";
+  const int status = std::system(line.c_str());
+  INFO(read_text(folder / "err"));
+  REQUIRE(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 130);
+  CHECK(has(read_text(folder / "err"), "stopped by a signal"));
+  CHECK(has(read_text(folder / "s/study.md"), "stopped before its end"));
+  CHECK(has(read_text(folder / "s/study.csv"), "automatic,automatic,"));
 }
 
 TEST_CASE("scenes that cannot be studied are refused with the reason", "[study]") {

@@ -39,6 +39,7 @@ sed -n 's/^MEASURE\t//p' "$work/tests" >> "$rows"
 Cases with a known answer, each as a scene or a test in `tests/scenes`. `./dev verify` runs them all and writes this page.
 A scene's rows are the `expect` entries of its `summary.json`; the other rows come from tests that need many runs. The
 time is that of the run in seconds, for tests since the row before; 0 means that the row was read off an earlier run.
+How the error falls with the step, and what it costs, is in [study.md](study.md).
 
 | case | quantity | value | reference | difference | tolerance | time | source |
 |---|---|---|---|---|---|---|---|

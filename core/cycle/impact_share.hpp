@@ -1,0 +1,9 @@
+#pragma once
+
+namespace scree::core {
+
+/// The largest step in a collision, as a share of the stable limit of the pair: by itself, and with `timestep:
+/// accurate`.
+inline constexpr double impact_share = 0.3, accurate_share = 0.1;
+
+}  // namespace scree::core
