@@ -174,6 +174,10 @@ Session::Ending Session::stages() {
   const auto& all = simulation_->scene.stages;
   if (position.stage == 0 && position.action == 0 && !position.inside) {
     complete(final_needs_);
+    const Engine& engine = simulation_->engine;
+    if (const std::string governs = engine.step.bound().text(); engine.clock.dt > 0 && !governs.empty())
+      log::info("step {:.6g} s of at most {:.6g} s, governed by {}", engine.clock.dt, engine.step.bound().step,
+                governs);
     const Watchdog::Section watched(*watchdog_, simulation_->engine.clock.cycle);
     for (const std::string& doubt : doubts(*simulation_)) log::warning("{}", doubt);
   }
