@@ -4,14 +4,19 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <numbers>
+#include <utility>
 
 #include "core/contact/run_law.hpp"
+#include "core/run/far_away.hpp"
+#include "core/run/rule_doubts.hpp"
 
 namespace scree::core {
 
 namespace {
 
-constexpr double deep = 0.01;  // of the radius: ten times what stiff enough contacts show under one ball's weight
+constexpr double deep = 0.01;    // of the radius: ten times what stiff enough contacts show under one ball's weight
+constexpr double unequal = 300;  // between the fastest and the slowest ball: a swing of 2000 cycles
 
 std::string number(double value) {
   char text[40];
@@ -54,19 +59,19 @@ double normal_stiffness(const BoundRule& rule, const Balls& balls, std::size_t r
   return tangent->normal[0];
 }
 
-/// Applied forces and processes that add: the net force without that of contacts, N.
-std::vector<double> pulls(Engine& engine) {
+/// Size of the force on every ball, N: of applied forces and processes that add, and with `contacts` of contacts too.
+std::vector<double> sizes(Engine& engine, bool contacts) {
   const Observation& now = engine.observe();
-  std::vector<double> pull(engine.balls.size());
-  for (std::size_t row = 0; row < pull.size(); ++row) {
+  std::vector<double> size(engine.balls.size());
+  for (std::size_t row = 0; row < size.size(); ++row) {
     double square = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const double own = now.force[c][row] - engine.contacts.slices().record(row)[c];
+      const double own = now.force[c][row] - (contacts ? 0 : engine.contacts.slices().record(row)[c]);
       square += own * own;
     }
-    pull[row] = std::sqrt(square);
+    size[row] = std::sqrt(square);
   }
-  return pull;
+  return size;
 }
 
 /// Per group the free ball with the most weight for its size: rules with one stiffness for all sizes press it deepest.
@@ -84,7 +89,7 @@ std::vector<std::size_t> heaviest(const Engine& engine, const std::vector<double
 Rest deepest(Engine& engine) {
   const RuleBook& book = engine.contacts.book;
   const Balls& balls = engine.balls;
-  const std::vector<double> pull = pulls(engine);
+  const std::vector<double> pull = sizes(engine, false);
   const std::vector<std::size_t> rows = heaviest(engine, pull);
   const auto scratch = std::make_unique<Scratch>();
   Rest worst;
@@ -104,26 +109,78 @@ Rest deepest(Engine& engine) {
   return worst;
 }
 
-/// A rule that gives friction but has no tangential part: it lacks the shear spring that friction limits.
-bool friction_in_vain(const Rule& rule, const BoundRule& bound) {
-  if (bound.model == nullptr || !bound.normal_only()) return false;
-  return std::any_of(rule.model.settings.begin(), rule.model.settings.end(), [](const Setting& setting) {
-    return setting.name == "fric" &&
-           (setting.formula != nullptr || setting.drawn != nullptr || setting.value.numbers.at(0) > 0);
-  });
+/// How fast a ball swings on the stiffest contact that it may have.
+struct Pace {
+  double square = 0;  ///< rad2/s2
+  uint64_t id = 0;
+  std::string rule;
+};
+
+/// Of every group the lightest and the heaviest free ball: the fastest of the ones and the slowest of the others.
+std::pair<Pace, Pace> paces(const Engine& engine) {
+  const RuleBook& book = engine.contacts.book;
+  const Balls& balls = engine.balls;
+  const auto scratch = std::make_unique<Scratch>();
+  std::vector<std::size_t> light(book.groups(), no_row), heavy(book.groups(), no_row);
+  for (std::size_t row = 0; row < balls.size(); ++row) {
+    if (balls[Column::inverse_mass][row] == 0) continue;
+    std::size_t &least = light[balls.group()[row]], &most = heavy[balls.group()[row]];
+    if (least == no_row || balls[Column::mass][row] < balls[Column::mass][least]) least = row;
+    if (most == no_row || balls[Column::mass][row] > balls[Column::mass][most]) most = row;
+  }
+  const auto pace = [&](std::size_t group, std::size_t row) {
+    Pace fastest;
+    const auto consider = [&](uint16_t index, const Wall* wall) {
+      if (index == no_rule || book.rules[index].model == nullptr) return;
+      const double square = normal_stiffness(book.rules[index], balls, row, wall, *scratch) / balls[Column::mass][row];
+      if (square > fastest.square) fastest = {square, balls.id()[row], book.rules[index].name};
+    };
+    for (std::size_t b = 0; b < light.size(); ++b)
+      if (light[b] != no_row) consider(book.balls(static_cast<uint16_t>(group), static_cast<uint16_t>(b)), nullptr);
+    for (std::size_t w = 0; w < engine.walls.size(); ++w)
+      consider(book.wall(static_cast<uint16_t>(group), static_cast<uint16_t>(w)), &engine.walls[w]);
+    return fastest;
+  };
+  Pace fastest, slowest;
+  for (std::size_t group = 0; group < light.size(); ++group) {
+    if (light[group] == no_row) continue;
+    const Pace quick = pace(group, light[group]), lazy = pace(group, heavy[group]);
+    if (quick.square > fastest.square) fastest = quick;
+    if (lazy.square > 0 && (slowest.square == 0 || lazy.square < slowest.square)) slowest = lazy;
+  }
+  return {fastest, slowest};
+}
+
+std::string unequal_paces(const Engine& engine) {
+  const auto [fastest, slowest] = paces(engine);
+  if (!(fastest.square > unequal * unequal * slowest.square) || slowest.square == 0 || engine.clock.dt == 0) return "";
+  const double cycles = 2 * std::numbers::pi / std::sqrt(slowest.square) / engine.clock.dt;
+  return "ball " + std::to_string(slowest.id) + " on rule '" + slowest.rule + "' swings " +
+         number(std::sqrt(fastest.square / slowest.square)) + " times as slowly as ball " + std::to_string(fastest.id) +
+         " on rule '" + fastest.rule + "', so that one of its swings takes about " + number(cycles) +
+         " cycles (the step is set by " + engine.step.bound().text() +
+         "): softer contacts of the one, or less mass of the other, make the run as much shorter";
+}
+
+/// A step of the user's that leaves less than the share of the limit that the automatic one leaves.
+std::string no_margin(const Engine& engine) {
+  const StepControl& step = engine.step;
+  if (step.automatic() || step.bound().step == 0 || *step.fixed <= step.allowed()) return "";
+  char share[40];
+  std::snprintf(share, sizeof share, "%.4g", *step.fixed / step.bound().step);
+  return "the step of " + number(*step.fixed) + " s is " + share + " of the stable limit of " +
+         number(step.bound().step) + " s (" + step.bound().text() + "): give a 'timestep' of at most " +
+         number(step.allowed()) + " s, or leave it out";
 }
 
 }  // namespace
 
 std::vector<std::string> doubts(Simulation& simulation) {
-  std::vector<std::string> out;
   Engine& engine = simulation.engine;
-  const RuleBook& book = engine.contacts.book;
-  for (uint16_t index : simulation.precedence)
-    if (friction_in_vain(simulation.rules[index], book.rules[index]))
-      out.push_back(simulation.rules[index].place.text() + ": warning: rule '" + simulation.rules[index].name +
-                    "' gives friction but no shear stiffness, so friction has no effect: give a shear stiffness, or "
-                    "leave 'fric' out");
+  std::vector<std::string> out = rule_doubts(simulation);
+  for (const std::string& one : far_away(engine, sizes(engine, true))) out.push_back(one);
+  for (const std::string& one : {unequal_paces(engine), no_margin(engine)})
+    if (!one.empty()) out.push_back(one);
   const Rest rest = deepest(engine);
   if (rest.share > deep)
     out.push_back("overlap under own weight = " + number(rest.share) + " R: ball " + std::to_string(rest.id) +

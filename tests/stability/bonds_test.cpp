@@ -144,13 +144,15 @@ stages:
   // Not a bound on speed: a break that cost the square of their number would take minutes.
   CHECK(at_break < 100 * std::max(before, after) + 1);
   lab::measured("38, D42", std::to_string(broke_at_once) + " of " + std::to_string(bonds) +
-                               " bonds in one cycle; energy not accounted for " + lab::number(share) + "; that cycle took " +
-                               lab::number(at_break / std::max(before, 1e-9)) + " times one before");
+                               " bonds in one cycle; energy not accounted for " + lab::number(share) +
+                               "; that cycle took " + lab::number(at_break / std::max(before, 1e-9)) +
+                               " times one before");
 }
 
 TEST_CASE("D41 OK: bonds of strength 0 break at the first load, infinite ones never, and nothing divides by zero") {
-  for (const std::string model : {"contact_bond, cb_tenf: S, cb_shearf: S", "parallel_bond, pb_emod: 1e8, pb_kratio: 2, "
-                                                                            "pb_ten: S, pb_coh: S"}) {
+  for (const std::string model : {"contact_bond, cb_tenf: S, cb_shearf: S",
+                                  "parallel_bond, pb_emod: 1e8, pb_kratio: 2, "
+                                  "pb_ten: S, pb_coh: S"}) {
     for (const std::string strength : {"0", ".inf"}) {
       std::string law = model;
       for (std::size_t at; (at = law.find(": S")) != std::string::npos;) law.replace(at, 3, ": " + strength);
@@ -159,8 +161,9 @@ TEST_CASE("D41 OK: bonds of strength 0 break at the first load, infinite ones ne
           "scree: 1\nballs:\n  a: {generator: lattice, kind: sc, radius: 5 mm, spacing: 10 mm, box: [[0, 0, 0], [0.02, "
           "0.01, 0.01]], density: 2500}\ncontacts:\n  - {name: glue, between: [a, a], emod: 1e8, kratio: 2, fric: 0.3, "
           "model: " +
-          law + "}\nstages:\n  - glue: [bond: {rule: glue, gap: 1e-6}, apply: {balls: a, force: [1, 0, 0], where: \"x > "
-                "0.01\"}]\n");
+          law +
+          "}\nstages:\n  - glue: [bond: {rule: glue, gap: 1e-6}, apply: {balls: a, force: [1, 0, 0], where: \"x > "
+          "0.01\"}]\n");
       INFO(law);
       for (const Action& action : simulation->scene.stages[0].actions) simulation->edit(action);
       lab::run(*simulation, 200);

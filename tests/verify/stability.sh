@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# 10 000 random networks against their critical step, and rows of balls along (1,1,1) for 1e6 cycles
+# 10 000 random networks against their critical step, and rows of balls, free flights, turns and impacts over 1e6 cycles and more
 set -euo pipefail
 measured=$(mktemp)
 trap 'rm -f "$measured"' EXIT

@@ -1,0 +1,152 @@
+// Cases 30, 32, 33: energy and momentum over many impacts and turns.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "stability/lab.hpp"
+#include "support/measure.hpp"
+#include "support/scene_run.hpp"
+
+using namespace support;
+using scree::core::Column;
+
+namespace {
+
+const double mass = 2500 * 4.0 / 3 * std::numbers::pi * 1e-6;  // of 10 mm
+
+/// Energy of a Hertz ball that bounces on a floor `bounces` times, over that of the start: at the tops of its flight.
+struct Bounced {
+  double last = 0, worst = 0;  ///< relative change
+  uint64_t cycles = 0;
+};
+
+Bounced bounce(int bounces) {
+  // From a tenth of the radius under 10 000 g: 14 m/s, contact time 2.9432 d/v.
+  const double g = 98100, height = 0.001, v = std::sqrt(2 * g * height), shear = 1e9, nu = 0.25;
+  const double h = 4.0 / 3 * shear / (1 - nu) * 0.1, deepest = std::pow(1.25 * mass * v * v / h, 0.4);
+  // A fiftieth of 2/w at the deepest point.
+  const double dt = 0.02 * 2 * std::sqrt(mass / (1.5 * h * std::sqrt(deepest)));
+  SceneRun run(
+      "scree: 1\n" + "timestep: " + digits(dt) + "\n" +
+          "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nballs:\n  ball: {generator: file, "
+          "path: balls.csv, density: 2500}\ncontacts:\n  - {name: ground, between: [ball, [floor, ball]], model: "
+          "hertz_mindlin, shear: 1e9, poiss: 0.25, fric: 0, dp_nratio: 0}\nprocesses:\n  pull: {process: gravity, "
+          "acceleration: "
+          "[0, 0, -98100]}\n",
+      "x,y,z,radius\n0,0," + digits(0.01 + height) + ",0.01\n");
+  run.engine().sums_wanted = run.engine().report_wanted = false;
+  const auto& balls = run.engine().balls;
+  Bounced out;
+  double before = 0, start = 0;
+  for (int done = -1; done < bounces;) {
+    run.step();
+    ++out.cycles;
+    const double now = balls[Column::vz][0];
+    if (before > 0 && now <= 0 && balls[Column::z][0] > 0.01) {
+      // v(n) lies half a kick after v(n-1/2); in free flight g z(n) + v(n)^2/2 is kept exactly.
+      const double v_top = now - 0.5 * g * run.engine().clock.dt_back;
+      const double energy = g * (balls[Column::z][0] - 0.01) + v_top * v_top / 2;
+      if (done < 0) start = energy;
+      out.last = energy / start - 1;
+      out.worst = std::max(out.worst, std::abs(out.last));
+      ++done;
+    }
+    before = now;
+  }
+  return out;
+}
+
+void bounces(int count, const std::string& name) {
+  const Bounced fixed = bounce(count);
+  CHECK(fixed.worst < 2e-3);
+  lab::measured(name, std::to_string(count) + " bounces in " + std::to_string(fixed.cycles) +
+                          " cycles: energy within " + lab::number(fixed.worst) + ", at the end " +
+                          lab::number(fixed.last));
+}
+
+/// Five balls in a row between two walls, the first one moving: elastic, at 0.02 of the limit of a pair.
+void cradle(int impacts, const std::string& name) {
+  const double k = 1e6, dt = 0.02 * 2 * std::sqrt(mass / 2 / k);
+  std::string balls = "x,y,z,radius,vx,vy,vz\n";
+  for (int n = 0; n < 5; ++n) balls += digits(0.02 + 0.0205 * n) + ",0,0,0.01," + (n == 0 ? "1" : "0") + ",0,0\n";
+  SceneRun run(
+      "scree: 1\ntimestep: " + digits(dt) +
+          "\nwalls:\n  low: {wall: plane, point: [0.0095, 0, 0], normal: [1, 0, 0]}\n  high: {wall: plane, point: "
+          "[0.1125, 0, 0], normal: "
+          "[-1, 0, 0]}\nballs:\n  row: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n  - {name: "
+          "all, between: [row, [row, walls]], model: linear, kn: 1e6, ks: 0}\n",
+      balls);
+  run.engine().sums_wanted = run.engine().report_wanted = false;
+  const auto& all = run.engine().balls;
+  int seen = 0;
+  double worst = 0, last = 0;
+  uint64_t active = 0;
+  while (seen < impacts) {
+    run.step();
+    run.engine().forces();
+    const uint64_t now = run.engine().contacts.active();
+    if (now < active && now == 0) {
+      double energy = 0;
+      bool free = true;
+      for (std::size_t row = 0; row < 5; ++row) {
+        energy += all[Column::vx][row] * all[Column::vx][row];
+        free = free && all[Column::x][row] > 0.0195 && all[Column::x][row] < 0.1025;
+      }
+      ++seen;
+      active = now;
+      if (!free) continue;  // a wall holds some of the energy
+      last = energy - 1;
+      worst = std::max(worst, std::abs(last));
+    }
+    active = now;
+  }
+  // The scatter of one impact at this step is 2e-4 of the speed; it adds up as a random walk at worst.
+  CHECK(worst < 3 * 4e-4 * std::sqrt(impacts));
+  lab::measured(name, std::to_string(impacts) + " impacts: energy within " + lab::number(worst) + ", at the end " +
+                          lab::number(last));
+}
+
+/// Two bonded balls that turn about each other with a stretched bond, and drift.
+void orbit(uint64_t cycles, const std::string& name) {
+  const double speed = 1, k = 1e6, apart = 0.02 + 2 * mass * speed * speed / (k * 0.02);
+  SceneRun run(
+      "scree: 1\ntimestep: " + digits(0.05 * 2 * std::sqrt(mass / 2 / k)) +
+          "\nballs:\n  pair: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n  - {name: glue, between: "
+          "[pair, pair], model: contact_bond, kn: 1e6, ks: 0, cb_tenf: .inf, cb_shearf: .inf}\nstages:\n  - glue: "
+          "[bond: {rule: glue, gap: 1 mm}]\n",
+      "x,y,z,radius,vx,vy,vz\n" + digits(-apart / 2) + ",0,0,0.01,0.3," + digits(-speed) + ",0\n" + digits(apart / 2) +
+          ",0,0,0.01,0.3," + digits(speed) + ",0\n");
+  run.simulation().edit(run.simulation().scene.stages[0].actions[0]);
+  run.engine().sums_wanted = run.engine().report_wanted = false;
+  const auto& balls = run.engine().balls;
+  double low = 1, high = 0, momentum = 0, turn = 0, first = 0, stray = 0;
+  for (uint64_t part = 0; part < 1000; ++part) {
+    run.step(cycles / 1000);
+    const double x = balls[Column::x][1] - balls[Column::x][0], y = balls[Column::y][1] - balls[Column::y][0],
+                 vx = balls[Column::vx][1] - balls[Column::vx][0], vy = balls[Column::vy][1] - balls[Column::vy][0];
+    const double length = std::hypot(x, y);
+    low = std::min(low, length);
+    high = std::max(high, length);
+    momentum = std::max(momentum, std::abs(balls[Column::vy][0] + balls[Column::vy][1]) / 2 +
+                                      std::abs((balls[Column::vx][0] + balls[Column::vx][1]) / 2 - 0.3));
+    // x(n) and v(n - 1/2): their moment is kept exactly by a central force.
+    turn = x * vy - y * vx;
+    if (part == 0) first = turn;
+    stray = std::max(stray, std::abs(turn / first - 1));
+  }
+  CHECK(momentum < 1e-12 * std::sqrt(static_cast<double>(cycles) / 1e5));
+  CHECK(stray < 1e-11);
+  CHECK(high - low < 0.02 * low);
+  lab::measured(name, lab::number(static_cast<double>(cycles)) + " cycles: momentum within " +
+                          lab::number(momentum / speed) + ", moment of momentum within " + lab::number(stray) +
+                          ", distance within " + lab::number((high - low) / low));
+}
+
+}  // namespace
+
+TEST_CASE("33 OK: a Hertz ball keeps its energy over 300 bounces") { bounces(300, "33"); }
+TEST_CASE("33 OK: the same over 1e4 bounces", "[.][verify]") { bounces(10000, "33 verify"); }
+TEST_CASE("32 OK: a cradle of five keeps its energy over 1000 impacts") { cradle(1000, "32"); }
+TEST_CASE("32 OK: the same over 1e4 impacts", "[.][verify]") { cradle(10000, "32 verify"); }
+TEST_CASE("30 OK: a bonded pair turns for 1e5 cycles without drift") { orbit(100000, "30, pair"); }
+TEST_CASE("30 OK: the same for 1e7 cycles", "[.][verify]") { orbit(10000000, "30, pair verify"); }
