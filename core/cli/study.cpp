@@ -117,8 +117,9 @@ std::string result_text(const Study& study) {
     out += norm.order ? fmt::format("order {:.2f}", *norm.order) : "no order";
     out += " (" + norm.fit + ")";
     if (norm.odd)
-      out += fmt::format(", expected {:g}{}: look for what is not smooth, or for a law that is wrong", norm.least_order,
-                         norm.most_order > norm.least_order ? fmt::format(" to {:g}", norm.most_order) : "");
+      out += fmt::format(
+          ", expected {:g}{}: look for what is not smooth, a law that is wrong or a reference that is not exact",
+          norm.least_order, norm.most_order > norm.least_order ? fmt::format(" to {:g}", norm.most_order) : "");
     out += "\n";
   }
   out += conclusion(study) + "\n";

@@ -90,7 +90,8 @@ void fit(const Study& study, const Measured& m, const std::vector<std::size_t>& 
   } else {
     norm.fit = "fewer than three rungs are resolved";
   }
-  norm.odd = norm.order && !expected_order(norm, *norm.order);
+  // With fewer rungs a single impact looks odd by the phase in which it begins.
+  norm.odd = points.size() >= 5 && !expected_order(norm, *norm.order);
 }
 
 void measure(const Study& study, const Measured& m, StudyNorm& norm) {
@@ -186,6 +187,8 @@ void judge_seeds(Study& study, std::size_t index) {
     if (study.points[k].kind == StudyPoint::Kind::ladder && study.points[k].done()) finest.push_back(k);
   if (finest.empty()) return;
   const StudyPoint& best = study.points[finest.back()];
+  // Repeats share a seed and say nothing but how long they took.
+  if (best.runs.size() < 2 || best.runs[0].seed == best.runs[1].seed) return;
   std::map<uint64_t, double> paired;
   Values sample;
   for (const StudyRun& run : best.runs)

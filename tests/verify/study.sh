@@ -19,6 +19,9 @@ What `scree study` finds for cases whose order is known; `./dev verify study` ru
 writes this page. Leapfrog is of order 2 where forces are smooth; 2.5 is what the speed after an impact by Hertz's law shows, as its force begins with the power 1.5 of the overlap; 1 where
 a dashpot's force jumps at touch. An impact is better or worse with the phase of the step in which it begins, so the scenes of impacts hold pairs at many phases and measure
 the worst of them. How each figure is found: [cli.md](cli.md#error-against-run-time).
+
+Wall times depend on the machine and on what else it does; contact updates do not. The wave here runs in a row with free ends: with the quiet boundaries of
+`examples/problems/p12_wave/wave.yaml`, which are dashpots, the same study finds order 1.
 TEXT
 } > "$work/page"
 
