@@ -27,7 +27,7 @@ Bounced bounce(int bounces) {
   // A fiftieth of 2/w at the deepest point.
   const double dt = 0.02 * 2 * std::sqrt(mass / (1.5 * h * std::sqrt(deepest)));
   SceneRun run(
-      "scree: 1\n" + "timestep: " + digits(dt) + "\n" +
+      "scree: 1\ntimestep: " + digits(dt) + "\n" +
           "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nballs:\n  ball: {generator: file, "
           "path: balls.csv, density: 2500}\ncontacts:\n  - {name: ground, between: [ball, [floor, ball]], model: "
           "hertz_mindlin, shear: 1e9, poiss: 0.25, fric: 0, dp_nratio: 0}\nprocesses:\n  pull: {process: gravity, "
