@@ -60,6 +60,8 @@ class EnergyBalance {
   double residual_share(const StoredEnergy& now) const;
 
   bool begun() const { return begun_; }
+  /// What is constant under leapfrog depends on the step: with another step it differs by this much, J.
+  void step_changed(double difference) { start_ += difference; }
   void begin(const StoredEnergy& now);
   /// What an edit does to the balance counts as work of the user: call before it and after it, when the forces of the
   /// same time are there again.

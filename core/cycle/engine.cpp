@@ -370,6 +370,10 @@ void Engine::advance() {
   if (clock.dt == 0) refuse_without_step();
   if (frequency_.noted()) watch_frequency();
   if (clock.cycle % monitor_every == 0) watch_honesty();
+  if (ledger.on && clock.dt_back > 0 && clock.dt_back != clock.dt) {
+    const Observation& now = observe();
+    ledger.step_changed(now.kinetic_shadow - now.kinetic_shadow_back);
+  }
   const MotionInput input = motion_input();
   Slices& slices = contacts.slices();
   const std::size_t words = input.sum_words;

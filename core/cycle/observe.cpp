@@ -13,6 +13,13 @@ struct BlockSums {
   double net = 0, contact = 0, most = 0, kinetic = 0, shadow = 0;
   RowWork work;
   uint64_t free = 0;
+  double shadow_back = 0;
+  // The half-step velocities lie half a step of acceleration to either side: of the coming step, and of the last one.
+  void add_shadow(double inertia, double now, double acceleration, const Clock& clock) {
+    const double half = 0.5 * clock.dt * acceleration, last = 0.5 * clock.dt_back * acceleration;
+    shadow += 0.5 * inertia * (now - half) * (now + half);
+    shadow_back += 0.5 * inertia * (now - last) * (now + last);
+  }
 };
 
 Column after(Column first, std::size_t component) {
@@ -72,17 +79,14 @@ const Observation& Engine::observe() {
           const double now = v + 0.5 * clock.dt_back * a;
           observation_.velocity[c][row] = now;
           s.kinetic += 0.5 * mass * now * now;
-          // Where no drift led here, the half-step velocity before is the one that leads to v(n).
-          const double back = clock.dt_back > 0 ? v : v - 0.5 * clock.dt * a;
-          s.shadow += 0.5 * mass * back * (now + 0.5 * clock.dt * a);
+          s.add_shadow(mass, now, a, clock);
           if (!spin) continue;
           const double w = balls[after(Column::wx, c)][row];
           const double b = fixed_in(fixed, row, 3 + c) ? 0.0 : f.moment[c][k] / inertia;
           const double turning = w + 0.5 * clock.dt_back * b;
           observation_.spin[c][row] = turning;
           s.kinetic += 0.5 * inertia * turning * turning;
-          const double before = clock.dt_back > 0 ? w : w - 0.5 * clock.dt * b;
-          s.shadow += 0.5 * inertia * before * (turning + 0.5 * clock.dt * b);
+          s.add_shadow(inertia, turning, b, clock);
         }
       }
     }
@@ -94,6 +98,7 @@ const Observation& Engine::observe() {
     total.most = std::max(total.most, s.most);
     total.kinetic += s.kinetic;
     total.shadow += s.shadow;
+    total.shadow_back += s.shadow_back;
     total.free += s.free;
     total.work += s.work;
   }
@@ -106,6 +111,7 @@ const Observation& Engine::observe() {
   observation_.unbalanced_max = ratio(total.most);
   observation_.kinetic = total.kinetic;
   observation_.kinetic_shadow = total.shadow;
+  observation_.kinetic_shadow_back = total.shadow_back;
   observation_.work_before = total.work;
   observation_.cycle = clock.cycle;
   return observation_;
