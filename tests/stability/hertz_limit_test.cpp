@@ -76,7 +76,7 @@ TEST_CASE("57 D20 OK: the step follows a contact that stiffens a thousand times,
     said += lab::number(speed) + " m/s: " + std::to_string(cycles) + " cycles, step at most " + lab::number(worst) +
             " of the critical one; ";
     if (speed < 1) {
-      CHECK(high / low < 1.5);
+      CHECK(high / low < 2);  // 1 if no depth were looked ahead; a safe step is below the critical one all along
       said += "step times F^(1/6) within " + lab::number(high / low) + " over a pressure ratio of 350; ";
     }
   }
