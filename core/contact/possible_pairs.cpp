@@ -15,11 +15,12 @@ class Trial {
  public:
   Trial(const RuleBook& book, const Balls& balls, double local_damping)
       : book_(book), balls_(balls), limit_(1 / (1 + local_damping)) {}
-  void meet(std::size_t row, uint16_t index, const Wall* wall);
+  /// `other`: the ball that it meets, which may stand for another one like it; no_row with a wall.
+  void meet(std::size_t row, std::size_t other, uint16_t index, const Wall* wall);
   const StepBound& bound() const { return bound_; }
 
  private:
-  void load(const BoundRule& rule, std::size_t row, const Wall* wall);
+  void load(const BoundRule& rule, std::size_t row, std::size_t other, const Wall* wall);
 
   const RuleBook& book_;
   const Balls& balls_;
@@ -29,15 +30,15 @@ class Trial {
   Tangents t_;
 };
 
-void Trial::load(const BoundRule& rule, std::size_t row, const Wall* wall) {
-  const double inverse = balls_[Column::inverse_mass][row], radius = balls_[Column::radius][row];
+void Trial::load(const BoundRule& rule, std::size_t row, std::size_t other, const Wall* wall) {
+  const double *inverse = balls_[Column::inverse_mass], radius = balls_[Column::radius][row];
   Birth birth;
   birth.row1 = static_cast<uint32_t>(row);
-  birth.row2 = wall != nullptr ? no_row : birth.row1;
+  birth.row2 = static_cast<uint32_t>(other);
   birth.wall = wall;
   birth.r1 = radius;
-  birth.r2 = wall != nullptr ? 0 : radius;
-  birth.mass = wall != nullptr ? 1 / inverse : 0.5 / inverse;
+  birth.r2 = wall != nullptr ? 0 : balls_[Column::radius][other];
+  birth.mass = 1 / (inverse[row] + (wall != nullptr ? 0 : inverse[other]));
   birth.x = balls_[Column::x][row];
   birth.y = balls_[Column::y][row];
   birth.z = balls_[Column::z][row];
@@ -53,19 +54,21 @@ void Trial::load(const BoundRule& rule, std::size_t row, const Wall* wall) {
   s_->mass[0] = birth.mass;
 }
 
-void Trial::meet(std::size_t row, uint16_t index, const Wall* wall) {
+void Trial::meet(std::size_t row, std::size_t other, uint16_t index, const Wall* wall) {
   if (index == no_rule || book_.rules[index].model == nullptr) return;
   const BoundRule& rule = book_.rules[index];
   const double inverse = balls_[Column::inverse_mass][row], radius = balls_[Column::radius][row];
   if (inverse == 0) return;
-  load(rule, row, wall);
+  load(rule, row, other, wall);
   tangents(rule, 1, false, *s_, t_);
   Link link{};
   link.normal[0] = 1;
   link.arm[0] = radius;
   link.kn = t_.normal[0];
   link.ks = t_.shear[0];
-  const double times = (wall != nullptr ? 1 : 2) * inverse;
+  // Weights as the network's: a ball counts its contact more, the lighter the other one is. Equal balls count it twice.
+  const double theirs = wall != nullptr ? 0 : balls_[Column::inverse_mass][other];
+  const double times = (1 + std::sqrt(theirs / inverse)) * inverse;
   Block stiffness = Block::Zero(), damping = Block::Zero();
   add_end(stiffness, link, 0, link.kn, link.ks, t_.bending[0], t_.twist[0], times, radius);
   add_end(damping, link, 0, 2 * t_.ratio_normal[0] * std::sqrt(s_->mass[0] * link.kn),
@@ -92,9 +95,10 @@ StepBound possible_pairs(const RuleBook& book, const Balls& balls, const std::ve
     if (lightest[group] == no_row) continue;
     for (std::size_t other = 0; other < book.groups(); ++other)
       if (lightest[other] != no_row)
-        trial.meet(lightest[group], book.balls(static_cast<uint16_t>(group), static_cast<uint16_t>(other)), nullptr);
+        trial.meet(lightest[group], lightest[other],
+                   book.balls(static_cast<uint16_t>(group), static_cast<uint16_t>(other)), nullptr);
     for (std::size_t w = 0; w < walls.size(); ++w)
-      trial.meet(lightest[group], book.wall(static_cast<uint16_t>(group), static_cast<uint16_t>(w)), &walls[w]);
+      trial.meet(lightest[group], no_row, book.wall(static_cast<uint16_t>(group), static_cast<uint16_t>(w)), &walls[w]);
   }
   return trial.bound();
 }

@@ -12,6 +12,7 @@ namespace scree::core {
 namespace {
 
 constexpr double birth_depth = 0.05;  ///< of the smaller radius, in one cycle
+constexpr double travel = 0.4;        ///< of the least radius, by the fastest ball in one cycle
 constexpr double few_contacts = 2;    ///< per ball: below, collisions are what happens
 
 }  // namespace
@@ -27,7 +28,7 @@ double Engine::fastest_ball() const {
 StepBound Engine::estimate() {
   double walls_move = 0;
   for (const Wall& wall : walls) walls_move = std::max(walls_move, wall.travel(clock.dt, extent_));
-  const double ball_moves = fastest_ball() * clock.dt;
+  const double fastest = fastest_ball(), ball_moves = fastest * clock.dt;
   const double used = std::max(2 * ball_travel_, ball_travel_ + wall_travel_);
   NetworkQuery query = schedule_.plan(
       clock.cycle, {std::max(2 * ball_moves, ball_moves + walls_move), std::max(0.0, skin_ - used), least_radius_});
@@ -46,8 +47,11 @@ StepBound Engine::estimate() {
                                       (few ? ", no more as there are fewer than two contacts a ball" : "");
   // Where balls meet rarely, what they could meet keeps the step steady between two meetings.
   const bool wide = few || !step.automatic();
-  const StepBound& stable = wide || found.network.step == 0 ? smaller(found.network, possible_) : found.network;
-  return smaller(stable, smaller(found.impact, found.kinematic));
+  const StepBound stable = wide || found.network.step == 0 ? smaller(found.network, possible_) : found.network;
+  // A ball that flies towards nothing must not pass through what it meets, and the guard stops it at half a radius.
+  StepBound flight;
+  if (step.automatic() && fastest > 0) flight = {travel * least_radius_ / fastest, 0, 0, "", "kinematic"};
+  return smaller(smaller(stable, flight), smaller(found.impact, found.kinematic));
 }
 
 }  // namespace scree::core
