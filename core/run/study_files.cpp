@@ -1,8 +1,8 @@
 #include "core/run/study_files.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
-#include <spdlog/fmt/fmt.h>
 #include <sys/wait.h>
 
 #include <algorithm>
