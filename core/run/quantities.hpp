@@ -16,8 +16,8 @@ namespace scree::core {
 /// `engine.forces()`, with `sums_wanted` and `report_wanted` as `needs` says. Reading never changes the trajectory.
 ///
 /// Extremes run from the start over the cycles that `follow` looks at: every cycle for numbers that cost nothing
-/// (walls, positions of single balls, processes, counts), every tenth for those that need a pass over balls or contacts, and the present one. So
-/// they do not depend on what is recorded. [one thread]
+/// (walls, positions of single balls, processes, counts), every tenth for those that need a pass over balls or
+/// contacts, and the present one. So they do not depend on what is recorded. [one thread]
 class Quantities {
  public:
   static constexpr uint64_t follow_every = 10;  ///< cycles, for extremes of what needs a pass

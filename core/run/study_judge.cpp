@@ -153,8 +153,7 @@ StudyNorm quantity(const Study& study, const Horizon& horizon, std::size_t index
   StudyNorm norm;
   norm.name = study.quantities[index];
   promise(norm, horizon);
-  // The account follows a dashpot better than the motion does.
-  if (norm.name == energy_residual && !horizon.tangential) norm.least_order = 2;
+  // The account may follow a dashpot better than the motion does.
   if (norm.name == energy_residual) norm.most_order = horizon.impacts ? 2.5 : 2;
   std::vector<Values> kept(study.points.size());
   Measured m;

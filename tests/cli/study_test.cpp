@@ -75,9 +75,12 @@ TEST_CASE("a smooth scene converges with order 2, in trajectory and quantity", "
   // Contacts that stay closed balance to rounding.
   CHECK(has(end.out, "energy.residual_share.peak: no order (fewer than three rungs have a small error"));
   CHECK(has(end.out, "For this scene the automatic step ("));
-  CHECK(has(end.out, "half of it gives balls.1.position.z within "));
+  CHECK(has(end.out, "half of it gives short trajectories within "));
+  CHECK(has(end.out, "balls.1.position.z within "));
   const std::string report = read_text(at.folder / "scene.study/study.md");
   CHECK(has(report, "| automatic*2 | "));
+  // Both walls at each evaluation of the forces.
+  CHECK(has(report, "| automatic/16 | 2.655e-05 | 113 | 228 |"));
   CHECK(has(report, "| 0.8 sqrt(m/k) | "));
   CHECK(has(report, "harmonic motion"));
   CHECK_FALSE(has(report, "(off)"));
@@ -131,6 +134,16 @@ TEST_CASE("the worst of many phases shows the order of an impact", "[study]") {
   CHECK(after(end.out, "restitution: order ") == Approx(2.5).margin(0.2));
   CHECK(after(end.out, "energy.residual_share.peak: order ") == Approx(2).margin(0.3));
   CHECK(has(read_text(folder / "co1_pairs.study/study.md"), "| 0.8 sqrt(m/k) | "));
+}
+
+TEST_CASE("a run that collisions govern states the error of an impact", "[study]") {
+  const std::string scene = support::source_dir() + "/tests/verify/study/box_30.yaml";
+  const TemporaryFolder folder;
+  REQUIRE(scree({"run", scene, "-j", "1", "--quiet", "-o", "out"}, folder.path()).code == 0);
+  const std::string summary = read_text(folder / "out/summary.json");
+  CHECK(has(summary, "speed after one undamped impact"));
+  // Below that of 0.3 of the limit of a pair, to which collisions are held.
+  CHECK(after(summary, "\"estimate\": ") == Approx(0.02).margin(0.0052));
 }
 
 TEST_CASE("Ctrl-C ends a study, and what is finished is kept", "[study]") {

@@ -167,7 +167,7 @@ TEST_CASE("quantities: a circle through an extreme is refused", "[run]") {
   CHECK_THROWS_WITH(q.check_scene(), Catch::Matchers::Contains("depends on itself"));
 }
 
-TEST_CASE("quantities: extremes are those of every tenth cycle and of now, and survive a checkpoint", "[run]") {
+TEST_CASE("quantities: extremes are those of the cycles looked at and of now, and survive a checkpoint", "[run]") {
   Simulated scene(std::string(thrown) + "expect: [{quantity: height.peak + height.least + cycle.peak, at_least: 0}]\n",
                   thrown_ball);
   Quantities q(*scene);
@@ -202,6 +202,8 @@ TEST_CASE("quantities: what a name needs of the cycle follows through the scene'
   CHECK_FALSE(q.needs("ratio").report);
   CHECK(q.needs("slip").report);
   CHECK_FALSE(q.needs("load").pass);
+  CHECK_FALSE(q.needs("balls.1.position.z").pass);
+  CHECK(q.needs("balls.1.velocity.z").pass);
   scene->engine.forces();  // without the report
   CHECK_THROWS_AS(q.value("slip"), Refusal);
 }
