@@ -57,7 +57,7 @@ class Gatherer {
   Tangents t_;
   WallTouches touches_;
   std::vector<uint8_t> nobody_;
-  uint32_t wall_ = no_row;            ///< of the batch; no_row for pairs of balls
+  uint32_t wall_ = no_row;             ///< of the batch; no_row for pairs of balls
   const TouchList* bonded_ = nullptr;  ///< of the batch, when its pairs are bonded
 };
 

@@ -139,6 +139,7 @@ class Engine {
   void watch_frequency();
   void watch_honesty();
   double fastest_ball() const;
+  StepBound flight() const;
   void check_cell() const;
   void check_energies() const;
   double exact_travel();

@@ -12,7 +12,7 @@ namespace scree::core {
 namespace {
 
 constexpr double birth_depth = 0.05;  ///< of the smaller radius, in one cycle
-constexpr double travel = 0.4;        ///< of the least radius, by the fastest ball in one cycle
+constexpr double travel = 0.4;        ///< of its own radius, by a ball in one cycle
 constexpr double few_contacts = 2;    ///< per ball: below, collisions are what happens
 
 }  // namespace
@@ -25,10 +25,25 @@ double Engine::fastest_ball() const {
   return std::sqrt(most);
 }
 
+// The ball that crosses its own radius first, and in what time.
+StepBound Engine::flight() const {
+  const double *x = balls[Column::vx], *y = balls[Column::vy], *z = balls[Column::vz], *radius = balls[Column::radius];
+  double most = 0;
+  std::size_t at = 0;
+  for (std::size_t row = 0; row < balls.size(); ++row) {
+    const double now = (x[row] * x[row] + y[row] * y[row] + z[row] * z[row]) / (radius[row] * radius[row]);
+    if (!(now > most)) continue;
+    most = now;
+    at = row;
+  }
+  if (!(most > 0)) return {};
+  return {travel / std::sqrt(most), balls.id()[at], 0, "", "kinematic"};
+}
+
 StepBound Engine::estimate() {
   double walls_move = 0;
   for (const Wall& wall : walls) walls_move = std::max(walls_move, wall.travel(clock.dt, extent_));
-  const double fastest = fastest_ball(), ball_moves = fastest * clock.dt;
+  const double ball_moves = fastest_ball() * clock.dt;
   const double used = std::max(2 * ball_travel_, ball_travel_ + wall_travel_);
   NetworkQuery query = schedule_.plan(
       clock.cycle, {std::max(2 * ball_moves, ball_moves + walls_move), std::max(0.0, skin_ - used), least_radius_});
@@ -49,9 +64,8 @@ StepBound Engine::estimate() {
   const bool wide = few || !step.automatic();
   const StepBound stable = wide || found.network.step == 0 ? smaller(found.network, possible_) : found.network;
   // A ball that flies towards nothing must not pass through what it meets, and the guard stops it at half a radius.
-  StepBound flight;
-  if (step.automatic() && fastest > 0) flight = {travel * least_radius_ / fastest, 0, 0, "", "kinematic"};
-  return smaller(smaller(stable, flight), smaller(found.impact, found.kinematic));
+  const StepBound flown = step.automatic() ? flight() : StepBound();
+  return smaller(smaller(stable, flown), smaller(found.impact, found.kinematic));
 }
 
 }  // namespace scree::core

@@ -16,7 +16,7 @@ struct Observation {
   double kinetic = 0;         ///< translation and rotation, with v(n), J
   double kinetic_shadow = 0;  ///< with the product of the two half-step velocities: constant for a linear oscillator, J
   double kinetic_shadow_back = 0;  ///< the same with the step of the last drift, J
-  RowWork work_before;        ///< of the forces of this time over half of the drift that led here; only with a ledger
+  RowWork work_before;  ///< of the forces of this time over half of the drift that led here; only with a ledger
   /// Velocity and spin at time n, net force (contacts, applied, body), all by row.
   Array<double> velocity[3], spin[3], force[3];
 };

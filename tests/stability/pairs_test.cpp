@@ -66,6 +66,7 @@ class Sweep {
   bool is_active(uint32_t a, uint32_t b) const {
     const uint32_t low = std::min(a, b), high = std::max(a, b);
     for (const TouchList& list : engine_.contacts.lists()) {
+      if (list.begin.empty()) continue;
       const uint32_t* begin = list.other.data() + list.begin[low];
       const uint32_t* end = list.other.data() + list.begin[low + 1];
       const uint32_t* found = std::lower_bound(begin, end, high);
