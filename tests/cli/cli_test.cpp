@@ -51,7 +51,8 @@ TEST_CASE("help and version exit 0 and go to stdout") {
   const ProgramEnd version = scree({"--version"});
   CHECK(version.code == 0);
   CHECK(version.out == "scree " SCREE_VERSION "\n");
-  for (const char* command : {"run", "resume", "check", "explain", "study", "list", "show", "new", "vet", "schema", "demo"}) {
+  for (const char* command :
+       {"run", "resume", "check", "explain", "study", "list", "show", "new", "vet", "schema", "demo"}) {
     const ProgramEnd end = scree({command, "-h"});
     INFO(command);
     CHECK(end.code == 0);
