@@ -9,6 +9,7 @@
 #include "stability/lab.hpp"
 #include "support/measure.hpp"
 #include "support/program.hpp"
+#include "support/sanitizer.hpp"
 #include "support/scene_run.hpp"
 
 using namespace support;
@@ -173,7 +174,7 @@ TEST_CASE("D27 OK: a ball that escapes costs no memory, is still counted, and no
   CHECK(run.engine().balls.size() == 1001);
   CHECK(run.engine().contacts.listed() == listed);
   CHECK(run.ball(1).position[0] == Approx(5 + 3300 * 4e-3).epsilon(1e-9));
-  CHECK(grown < (1u << 20));
+  if (!address_sanitizer) CHECK(grown < (1u << 20));  // it keeps what was freed
   lab::measured("D27", "1300 radii away after " + std::to_string(run.engine().rebuilds()) + " rebuilds: " +
                            lab::number(static_cast<double>(grown) / 1024) + " KiB more, contacts as before");
 }

@@ -10,6 +10,7 @@
 #include "support/catch.hpp"
 #include "support/paths.hpp"
 #include "support/program.hpp"
+#include "support/sanitizer.hpp"
 
 namespace {
 
@@ -118,7 +119,9 @@ TEST_CASE("defects of walls, processes, generators and writers are found") {
         Seeded{"deaf_writer", "full_disk"}, Seeded{"repeating_writer", "resume"}}) {
     INFO(seeded.component << " by " << seeded.check);
     const Outcome found = outcome("objects", seeded.component, seeded.check);
-    CHECK(found.verdict == Verdict::fail);
+    // The allocator of a sanitizer does not tell how much is taken.
+    const bool untold = (address_sanitizer || thread_sanitizer) && std::string(seeded.check) == "given_back";
+    CHECK(found.verdict == (untold ? Verdict::skip : Verdict::fail));
     CHECK(!found.found.empty());
   }
 }
@@ -126,7 +129,7 @@ TEST_CASE("defects of walls, processes, generators and writers are found") {
 TEST_CASE("a library that is built wrongly is found out") {
   CHECK(outcome("own_path_vetted", "", "search_paths").verdict == Verdict::fail);
   CHECK(has(outcome("own_path_vetted", "", "search_paths").found, "/opt/other"));
-  CHECK(has(outcome("talkative", "", "exported_symbols").found, "it exports chatter besides scree_plugin"));
+  CHECK(has(outcome("talkative", "", "exported_symbols").found, "chatter besides scree_plugin"));
   CHECK(has(outcome("starts", "", "start_up").found, "loading it changed the environment"));
   // Contraction matters only where an instruction set has the instruction.
   if (scree::core::detect_isa() > scree::core::Isa::baseline)
