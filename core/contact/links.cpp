@@ -21,7 +21,7 @@ const BoundRule& rule_of(const Contacts& contacts, std::size_t list) {
 class Gatherer {
  public:
   Gatherer(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
-           const LinkQuery& query, std::size_t first, std::size_t last)
+           const LinkQuery& query, std::size_t first, std::size_t last, const LinkSink* sink)
       : contacts_(contacts),
         balls_(balls),
         view_(balls),
@@ -30,7 +30,8 @@ class Gatherer {
         periodic_(cell.any()),
         query_(query),
         first_(first),
-        last_(last) {}
+        last_(last),
+        sink_(sink) {}
 
   void pairs(std::size_t block, Links& out);
   void walls(const WallList& list, Links& out);
@@ -53,6 +54,7 @@ class Gatherer {
   const bool periodic_;
   const LinkQuery query_;
   const std::size_t first_, last_;
+  const LinkSink* sink_;
   Scratch s_;
   Tangents t_;
   WallTouches touches_;
@@ -86,13 +88,15 @@ void Gatherer::list(std::size_t index, std::size_t block, Links& out) {
   const std::size_t begin = block * block_rows, end = std::min(balls_.size(), begin + block_rows);
   // The filter marks which active contacts have ended; here none is active, and none is marked.
   if (nobody_.size() < list.size()) nobody_.resize(list.size(), 0);
-  const FilterInput everything{list.begin.data(), list.other.data(), list.where.data(),
-                               periodic_ ? shifts_.of : nullptr, std::numeric_limits<double>::infinity()};
-  out.links.reserve(out.links.size() + (list.begin[end] - list.begin[begin]));
+  // Whatever is listed may collide or be bonded; else only what may touch before the next estimate counts.
+  const bool all = bonded_ != nullptr || query_.impact_share > 0;
+  const FilterInput near{list.begin.data(), list.other.data(), list.where.data(), periodic_ ? shifts_.of : nullptr,
+                         all ? std::numeric_limits<double>::infinity() : rule.reach + query_.margin};
+  if (sink_ == nullptr) out.links.reserve(out.links.size() + (list.begin[end] - list.begin[begin]));
   Cursor cursor{list.begin[begin], begin, end};
   while (cursor.row < cursor.last_row) {
     uint32_t drops[Scratch::padded], dropped = 0;
-    const uint32_t n = stage.filter[periodic_](view_, everything, cursor, nobody_.data(), s_, drops, dropped);
+    const uint32_t n = stage.filter[periodic_](view_, near, cursor, nobody_.data(), s_, drops, dropped);
     if (n == 0) continue;
     stage.geometry[0][0](view_, n, 0.0, 1.0, s_);
     for (std::size_t v = 0; v < list.property.size(); ++v)
@@ -100,6 +104,9 @@ void Gatherer::list(std::size_t index, std::size_t block, Links& out) {
     for (std::size_t w = 0; w < list.state.size(); ++w)
       for (uint32_t k = 0; k < n; ++k) s_.state[w][k] = list.state[w][s_.slot[k]];
     batch(rule, n, out);
+    if (sink_ == nullptr) continue;
+    (*sink_)(block, out.links);
+    out.links.clear();
   }
 }
 
@@ -120,7 +127,7 @@ void Gatherer::batch(const BoundRule& rule, uint32_t n, Links& out) {
 
 void Gatherer::lower(StepBound& held, double step, const char* term, uint32_t k) const {
   if (!(step > 0) || (held.step > 0 && held.step <= step)) return;
-  held = {step, balls_.id()[s_.row[k]], 0, "", term};
+  held = {step, balls_.id()[s_.row[k]], 0, "", term, false};
   if (wall_ == no_row)
     held.other = balls_.id()[s_.other[k]];
   else
@@ -129,14 +136,19 @@ void Gatherer::lower(StepBound& held, double step, const char* term, uint32_t k)
 
 void Gatherer::limits(const BoundRule& rule, uint32_t n, Links& out) {
   double opening[Scratch::size], speed[Scratch::size], peak[Scratch::size];
+  double soonest = out.kinematic.step > 0 ? out.kinematic.step : std::numeric_limits<double>::infinity();
+  if (query_.birth_depth == 0) soonest = 0;
   bool any = false;
   for (uint32_t k = 0; k < n; ++k) {
     opening[k] = s_.vx[k] * s_.nx[k] + s_.vy[k] * s_.ny[k] + s_.vz[k] * s_.nz[k];
     speed[k] = std::fabs(opening[k]);
     any = any || speed[k] > 0;
     const double least = wall_ == no_row ? std::min(s_.r1[k], s_.r2[k]) : s_.r1[k];
-    if (query_.birth_depth > 0 && opening[k] < 0)
+    // A division only for those that may be the first.
+    if (opening[k] < 0 && query_.birth_depth * least < soonest * speed[k]) {
       lower(out.kinematic, query_.birth_depth * least / speed[k], "kinematic", k);
+      soonest = out.kinematic.step;
+    }
   }
   if (!any || query_.impact_share == 0) return;
   tangents(rule, n, false, s_, t_);
@@ -156,6 +168,7 @@ void Gatherer::keep(const BoundRule& rule, uint32_t k, Links& out) {
   link.row[0] = s_.row[k];
   link.row[1] = static_cast<uint32_t>(j);
   link.wall = wall_;
+  link.record = j == no_row ? 0 : s_.where[k] & target::record_mask;
   // The stages give the normal from the lower to the higher id; a block wants it outward from its ball, as contacts of
   // one ball couple translation and rotation with the sign of their side.
   const double sign = wall_ == no_row ? s_.sign[k] : 1.0;
@@ -242,16 +255,17 @@ void append(Links& all, const Links& part) {
   all.rotates = all.rotates || part.rotates;
 }
 
-}  // namespace
-
-Links gather_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
-                   const PeriodicCell& cell, const LinkQuery& query, std::size_t first, std::size_t last, Team& team) {
+struct Rows {
+  std::size_t first, last;
+};
+Links gather(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
+             const LinkQuery& query, Rows rows, Team& team, const LinkSink* sink) {
   const std::size_t blocks = (balls.size() + block_rows - 1) / block_rows, lists = contacts.wall_lists().size();
   std::vector<Links> parts(blocks + lists);
   std::vector<std::unique_ptr<Gatherer>> gatherers(team.size());
   team.each_block(parts.size(), [&](std::size_t part, unsigned thread) {
     if (!gatherers[thread])
-      gatherers[thread] = std::make_unique<Gatherer>(contacts, balls, walls, cell, query, first, last);
+      gatherers[thread] = std::make_unique<Gatherer>(contacts, balls, walls, cell, query, rows.first, rows.last, sink);
     if (part < blocks)
       gatherers[thread]->pairs(part, parts[part]);
     else
@@ -266,6 +280,18 @@ Links gather_links(const Contacts& contacts, const Balls& balls, const std::vect
     part = Links();
   }
   return all;
+}
+
+}  // namespace
+
+Links gather_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
+                   const PeriodicCell& cell, const LinkQuery& query, std::size_t first, std::size_t last, Team& team) {
+  return gather(contacts, balls, walls, cell, query, {first, last}, team, nullptr);
+}
+
+Links stream_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
+                   const PeriodicCell& cell, const LinkQuery& query, Team& team, const LinkSink& sink) {
+  return gather(contacts, balls, walls, cell, query, {0, balls.size()}, team, &sink);
 }
 
 double coordination(const Contacts& contacts, const Balls& balls, const PeriodicCell& cell) {

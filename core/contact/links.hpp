@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/base/threads.hpp"
@@ -12,6 +13,7 @@ namespace scree::core {
 struct Link {
   uint32_t row[2];        ///< row[1] is no_row for a wall
   uint32_t wall;          ///< index, where row[1] is no_row
+  uint32_t record;        ///< of row[1] in the slice of the block of row[0], see Slices
   double normal[3];       ///< from row[0] to the other side
   double arm[2];          ///< from each centre to the contact point, m; arm[1] is 0 for a wall
   double kn, ks, kb, kt;  ///< normal, shear, N/m; bending, twist, N m/rad
@@ -35,6 +37,12 @@ struct Links {
 /// All links with an end in the rows [first, last): balls and walls. The same for any number of threads.
 Links gather_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                    const PeriodicCell& cell, const LinkQuery& query, std::size_t first, std::size_t last, Team& team);
+
+/// Takes links of pairs owned by a block of rows. Blocks come from several threads, each from one.
+using LinkSink = std::function<void(std::size_t block, const std::vector<Link>& links)>;
+/// The same over all rows, but links of pairs go batch by batch to `sink` and are not kept; those of walls are.
+Links stream_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
+                   const PeriodicCell& cell, const LinkQuery& query, Team& team, const LinkSink& sink);
 
 /// Contacts per ball: pairs that touch count for both balls, those with walls as of the last pass once.
 double coordination(const Contacts& contacts, const Balls& balls, const PeriodicCell& cell);

@@ -62,7 +62,7 @@ class Network {
   double weight(const Link& link, int end, const std::vector<double>& weights) const;
   double extent(const Portion& portion, std::size_t row, const std::vector<double>& weights, bool doubled) const;
   double sweep(std::vector<double>& largest, const std::vector<double>& weights, bool doubled);
-  Worst certify(const Portion& portion, const std::vector<double>& weights, double start, bool dashpots) const;
+  Worst certify(const Portion& portion, const std::vector<double>& weights, double start) const;
   void blocks(const Portion& portion, std::size_t row, const std::vector<double>& weights, Block& stiffness,
               Block& damping) const;
   void name(const Portion& portion, const Worst& worst, const std::vector<double>& weights, StepBound& bound) const;
@@ -186,6 +186,8 @@ std::vector<double> Network::equal_weights() {
   if (!(stiffest > 0)) return best_weights();
   // A single spring moves a ball at least this fast, so the limit lies below.
   out_.network.step = 2 / std::sqrt(stiffest * (1 + query_.local_damping)) * (1 + 1e-3);
+  out_.network.open = query_.enough > 0 && query_.enough < out_.network.step;
+  if (out_.network.open) out_.network.step = query_.enough;
   return std::vector<double>(balls_.size(), 1.0);
 }
 
@@ -206,8 +208,7 @@ void Network::blocks(const Portion& portion, std::size_t row, const std::vector<
 
 // The largest h that every block of the portion allows, below `start`: a Cholesky test spares the eigenvalues of all
 // but a few.
-Network::Worst Network::certify(const Portion& portion, const std::vector<double>& weights, double start,
-                                bool dashpots) const {
+Network::Worst Network::certify(const Portion& portion, const std::vector<double>& weights, double start) const {
   const double limit = 1 / (1 + query_.local_damping);
   const std::size_t rows = portion.last - portion.first, parts = (rows + block_rows - 1) / block_rows;
   std::vector<Worst> worst(parts);
@@ -219,7 +220,6 @@ Network::Worst Network::certify(const Portion& portion, const std::vector<double
       const std::size_t at = row - portion.first;
       if (balls_[Column::inverse_mass][row] == 0 || portion.ends.begin[at] == portion.ends.begin[at + 1]) continue;
       blocks(portion, row, weights, stiffness, damping);
-      if (!dashpots) damping.setZero();
       if (stable(stiffness, damping, h, limit)) continue;
       h = largest_stable(stiffness, damping, h, limit);
       worst[part] = {h, row};
@@ -233,6 +233,11 @@ Network::Worst Network::certify(const Portion& portion, const std::vector<double
 
 void Network::name(const Portion& portion, const Worst& worst, const std::vector<double>& weights,
                    StepBound& bound) const {
+  Block stiffness, damping;
+  blocks(portion, worst.row, weights, stiffness, damping);
+  const double limit = 1 / (1 + query_.local_damping);
+  // Would its springs alone allow a ninth more?
+  bound.term = dashpots_ && stable(stiffness, Block::Zero(), worst.h / 0.9, limit) ? "damping" : "network";
   bound.ball = balls_.id()[worst.row];
   bound.other = 0;
   bound.wall.clear();
@@ -256,20 +261,16 @@ NetworkBound Network::bound() {
   StepBound& bound = out_.network;
   const double start = 0.5 * bound.step;
   Worst all;
-  double springs = 0;
+  bound.term = "network";
   each_portion([&](const Portion& portion) {
-    const Worst worst = certify(portion, weights, start, dashpots_);
-    if (dashpots_) {
-      const Worst without = certify(portion, weights, start, false);
-      if (without.h > 0) springs = springs == 0 ? without.h : std::min(springs, without.h);
-    }
+    const Worst worst = certify(portion, weights, start);
     if (!(worst.h > 0) || (all.h > 0 && all.h <= worst.h)) return;
     all = worst;
     name(portion, worst, weights, bound);
   });
   const double h = all.h > 0 ? all.h : start;
+  bound.open = bound.open && !(all.h > 0);
   bound.step = 2 * h * (1 - rounding);
-  bound.term = dashpots_ && springs > 0 && h < 0.9 * springs ? "damping" : "network";
   return out_;
 }
 

@@ -6,7 +6,8 @@ namespace scree::core {
 /// What an estimate of the network's limit may use and must cover.
 struct NetworkQuery {
   LinkQuery links;
-  unsigned sweeps = 0;       ///< of weights, at most; 0: equal weights, the cheapest
+  unsigned sweeps = 0;  ///< of weights, at most; 0: equal weights, the cheapest
+  double enough = 0;    ///< s; with equal weights a larger step is not looked for, and the bound left open; 0: it is
   double local_damping = 0;  ///< Cundall's factor
 };
 

@@ -77,7 +77,7 @@ void Trial::meet(std::size_t row, std::size_t other, uint16_t index, const Wall*
   if (!(largest > 0)) return;
   const double step = 2 * largest_stable(stiffness, damping, 1.01 * std::sqrt(limit_ / largest), limit_);
   if (bound_.step > 0 && bound_.step <= step) return;
-  bound_ = {step, balls_.id()[row], 0, wall != nullptr ? wall->name : "", "possible pair"};
+  bound_ = {step, balls_.id()[row], 0, wall != nullptr ? wall->name : "", "possible pair", false};
 }
 
 }  // namespace

@@ -31,6 +31,17 @@ class Slices {
   void fold(std::size_t block);
   std::size_t bytes() const;
 
+  /// For records kept elsewhere in the same layout: how many there are, and the first of each block.
+  std::size_t records() const { return blocks_ == 0 ? 0 : first_[blocks_]; }
+  std::size_t first_record(std::size_t block) const { return first_[block]; }
+  /// Calls f(row within the block, record) for what other blocks hold for the rows of this one, in block order.
+  template <class F>
+  void each_halo(std::size_t block, F f) const {
+    for (const Segment& segment : incoming_[block])
+      for (std::size_t k = 0; k < segment.count; ++k)
+        f(halo_row_[segment.row + k] - block * block_rows, segment.record + k);
+  }
+
   /// Net contact forces of all rows as `fold` would leave them, for a checkpoint. Changes nothing.
   std::vector<double> save() const;
   /// After `build`. Needs rows times stride values.

@@ -11,6 +11,7 @@ struct StepBound {
   uint64_t other = 0;  ///< id of the ball it meets in the contact that governs, 0: none or a wall
   std::string wall;    ///< the wall it meets, "" when it is a ball or unknown
   std::string term;    ///< "network", "damping", "pair", "kinematic" or "possible pair"
+  bool open = false;   ///< the limit is larger, and what sets it was not looked for
 
   /// As in "network of ball 4, contact with ball 9"; "" when nothing limits the step.
   std::string text() const;

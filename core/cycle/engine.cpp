@@ -46,7 +46,7 @@ double Engine::local_damping() const {
 
 void Engine::check_cell() const {
   for (int axis = 0; axis < 3; ++axis) {
-    const double least = 2 * (2 * largest_radius_ + skin_ + contacts.book.reach());
+    const double least = 2 * (2 * largest_radius_ + skin_.narrow() + contacts.book.reach());
     if (cell.periodic[axis] && cell.length(axis) < least)
       throw Refusal(Exit::scene,
                     std::string("the periodic cell is too small along ") + "xyz"[axis] + ": its edge is " +
@@ -54,6 +54,14 @@ void Engine::check_cell() const {
                         " m (twice the largest diameter plus skin) are needed so that a pair meets through "
                         "one image only; enlarge the cell or use smaller balls");
   }
+}
+
+double Engine::room_for_skin() const {
+  double room = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    if (cell.periodic[axis])
+      room = std::min(room, 0.5 * cell.length(axis) - 2 * largest_radius_ - contacts.book.reach());
+  return room;
 }
 
 void Engine::check_energies() const {
@@ -111,7 +119,7 @@ void Engine::prepare() {
   }
   if (!contacts.built()) {
     const double mean = balls.size() > 0 ? sum / static_cast<double>(balls.size()) : 0;
-    skin_ = wanted_skin > 0 ? wanted_skin : 0.2 * std::min(mean, 4 * least_radius_);
+    skin_.begin(wanted_skin, {mean, least_radius_, room_for_skin()});
     check_cell();
   }
   possible_ = possible_pairs(contacts.book, balls, walls, local_damping());
@@ -120,7 +128,7 @@ void Engine::prepare() {
 }
 
 void Engine::rebuild() {
-  contacts.rebuild(balls, walls, cell, skin_, team);
+  contacts.rebuild(balls, walls, cell, skin_.width(), team);
   check_count();
   const std::size_t n = balls.size();
   for (int axis = 0; axis < 3; ++axis) {
@@ -134,9 +142,10 @@ void Engine::rebuild() {
     for (std::size_t row = 0; row < n; ++row)
       extent_ = std::max(extent_, norm({balls[Column::x][row] - wall.centre[0], balls[Column::y][row] - wall.centre[1],
                                         balls[Column::z][row] - wall.centre[2]}) +
-                                      largest_radius_ + skin_);
+                                      largest_radius_ + skin_.width());
   }
   ball_travel_ = wall_travel_ = 0;
+  skin_.renewed(clock.cycle);
   ++rebuilds_;
   choose_step();
 }
@@ -186,10 +195,13 @@ double Engine::exact_travel() {
 
 void Engine::detect() {
   if (!contacts.built()) return rebuild();
-  const auto used_up = [&] { return 2 * ball_travel_ > skin_ || ball_travel_ + wall_travel_ > skin_; };
+  const auto used_up = [&] { return std::max(2 * ball_travel_, ball_travel_ + wall_travel_) > skin_.width(); };
   if (used_up()) {
     ball_travel_ = exact_travel();
-    if (used_up()) return rebuild();
+    if (used_up()) {
+      skin_.used_up(clock.cycle);
+      return rebuild();
+    }
   }
   if (step.automatic() && schedule_.due(clock.cycle)) choose_step();
 }
@@ -456,8 +468,8 @@ void Engine::forces_outdated() {
 Engine::Loop Engine::loop() const {
   return {ball_travel_,
           wall_travel_,
-          skin_,
           extent_,
+          skin_.state(),
           contacts.energy(),
           wall_motion_,
           static_cast<uint8_t>(forces_current()),
@@ -469,7 +481,7 @@ Engine::Loop Engine::loop() const {
 void Engine::restore(const Loop& loop) {
   ball_travel_ = loop.ball_travel;
   wall_travel_ = loop.wall_travel;
-  skin_ = loop.skin;
+  skin_.restore(loop.skin);
   contacts.set_energy(loop.energy);
   wall_motion_ = loop.wall_motion;
   extent_ = loop.extent;

@@ -14,6 +14,7 @@
 #include "core/cycle/motion.hpp"
 #include "core/cycle/observation.hpp"
 #include "core/cycle/process.hpp"
+#include "core/cycle/skin.hpp"
 #include "core/cycle/step_control.hpp"
 #include "core/cycle/step_schedule.hpp"
 #include "core/world/balls.hpp"
@@ -108,7 +109,7 @@ class Engine {
   /// Call after an edit: the forces of this time are evaluated again, with increments of zero.
   void forces_outdated();
 
-  double skin() const { return skin_; }
+  double skin() const { return skin_.width(); }
   uint64_t rebuilds() const { return rebuilds_; }
   uint64_t contact_updates() const { return contact_updates_; }
   bool forces_current() const { return forces_current_ && contacts.built(); }
@@ -120,7 +121,8 @@ class Engine {
 
   /// What a checkpoint holds beside columns.
   struct Loop {
-    double ball_travel, wall_travel, skin, extent;
+    double ball_travel, wall_travel, extent;
+    Skin::State skin;
     ContactEnergy energy;                            ///< of the last pass
     std::vector<std::array<double, 6>> wall_motion;  ///< of the last drift, while energy is traced
     uint8_t forces_current;
@@ -136,11 +138,13 @@ class Engine {
   void evaluate_forces();
   void choose_step();
   StepBound estimate();
+  NetworkBound weigh(NetworkQuery& query);
   void watch_frequency();
   void watch_honesty();
   double fastest_ball() const;
   StepBound flight() const;
   void check_cell() const;
+  double room_for_skin() const;  ///< m, that the edges of the periodic cell leave
   void check_energies() const;
   double exact_travel();
   double wall_work(bool before) const;
@@ -168,7 +172,8 @@ class Engine {
   FrequencyWatch frequency_;
   HonestyWatch honesty_;
   Census counted_;  ///< by the last prepare()
-  double skin_ = 0, least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
+  Skin skin_;
+  double least_radius_ = 0, largest_radius_ = 0, extent_ = 0;
   double ball_travel_ = 0, wall_travel_ = 0;
   std::vector<std::array<double, 6>> wall_motion_;  ///< velocity and spin of the last drift, for the ledger
   uint64_t rebuilds_ = 0, contact_updates_ = 0;

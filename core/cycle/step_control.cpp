@@ -12,8 +12,8 @@ double StepControl::six_bits(double value) {
 }
 
 void StepControl::take(const StepBound& bound, uint64_t cycle) {
-  bound_ = bound;
-  const double target = six_bits(allowed());
+  if (!bound.open) bound_ = bound;
+  const double target = six_bits(safety * bound.step);
   if (target == 0) return;
   if (step_ == 0 || target < step_) {
     step_ = target;

@@ -16,8 +16,13 @@ class StepControl {
 
   std::optional<double> fixed;  ///< the user's own step, s
   bool accurate = false;        ///< collisions get a tenth of a pair's limit, in dense scenes too
-  /// A new bound was computed at this cycle.
+  /// A new bound was computed at this cycle. One that is open lets the step be, and is not kept.
   void take(const StepBound& bound, uint64_t cycle);
+  /// The least bound that lets the step rise in time, s; 0: the next one has to be known, as the step may rise now.
+  double enough(uint64_t cycle) const {
+    const bool now = step_ == 0 || (since_ != never && cycle - since_ >= patience);
+    return now ? 0 : 1.05 * rise / safety * step_;  // rounding to six bits takes at most a thirty-third
+  }
   double step() const { return fixed ? *fixed : step_; }
   bool automatic() const { return !fixed; }
   const StepBound& bound() const { return bound_; }

@@ -56,7 +56,10 @@ void load_step(StepControl& step, const ArchiveReader& archive) {
 
 void save_loop(const Engine::Loop& loop, ArchiveWriter& out) {
   Packer packer;
-  for (double value : {loop.ball_travel, loop.wall_travel, loop.skin, loop.extent}) packer.f64(value);
+  for (double value :
+       {loop.ball_travel, loop.wall_travel, loop.extent, loop.skin.width, loop.skin.narrow, loop.skin.wide})
+    packer.f64(value);
+  packer.u64(loop.skin.since);
   packer.flag(loop.forces_current != 0);
   packer.u64(loop.rebuilds);
   packer.u64(loop.contact_updates);
@@ -93,10 +96,12 @@ void load_ledger(Engine& engine, Engine::Loop& loop, const ArchiveReader& archiv
 Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
   Unpacker in(archive, "loop");
   Engine::Loop loop{};
-  for (double* value : {&loop.ball_travel, &loop.wall_travel, &loop.skin, &loop.extent}) {
+  for (double* value :
+       {&loop.ball_travel, &loop.wall_travel, &loop.extent, &loop.skin.width, &loop.skin.narrow, &loop.skin.wide}) {
     *value = in.f64();
     if (!(*value >= 0 && std::isfinite(*value))) in.refuse("a length is not a finite number of at least 0");
   }
+  loop.skin.since = in.u64();
   loop.forces_current = in.flag();
   loop.rebuilds = in.u64();
   loop.contact_updates = in.u64();

@@ -2,8 +2,10 @@
 // matrix. `./dev verify stability` looks at 10 000 of them, every change at 200.
 #include <algorithm>
 #include <chrono>
+#include <memory>
 #include <vector>
 
+#include "core/contact/holding.hpp"
 #include "core/contact/network_bound.hpp"
 #include "stability/networks.hpp"
 #include "support/catch.hpp"
@@ -62,20 +64,43 @@ const char* const cemented =
     "{name: grains, between: [sand, sand], model: parallel_bond, emod: 1e8, kratio: 2.5, fric: 0.5, "
     "pb_emod: 1e8, pb_kratio: 2.5, pb_ten: .inf, pb_coh: .inf}";
 
-void look_at_packing(const std::string& law, const std::string& name) {
-  lab::Lab here;
-  const auto simulation = here.make(R"(scree: 1
+// Whether a step holds is asked faster than which step holds, in single precision: the line lies in the same place.
+void ask(Engine& engine, NetworkQuery query, double local_damping) {
+  query.sweeps = 0;
+  query.local_damping = local_damping;
+  const double limit =
+      network_bound(engine.contacts, engine.balls, engine.walls, engine.cell, query, engine.team).network.step;
+  const auto holding = [&](double step, double factor) {
+    return step_holds(engine.contacts, engine.balls, engine.walls, engine.cell, query.links, local_damping, step,
+                      factor, engine.team);
+  };
+  CHECK(holding((1 - 1e-4) * limit, 1).holds);
+  CHECK(!holding((1 + 1e-4) * limit, 1).holds);
+  CHECK(holding(0.9 * limit, 1.2).holds);
+  CHECK(!holding(0.9 * limit, 1.2).larger);
+  CHECK(holding(0.6 * limit, 1.2).larger);
+}
+
+std::unique_ptr<Simulation> packing(lab::Lab& here, const std::string& law) {
+  const bool bonds = law == cemented;
+  auto simulation = here.make(R"(scree: 1
 seed: 3
 cell: {low: [0, 0, 0], high: [0.105, 0.105, 0.105], periodic: [x, y, z]}
 balls:
   sand: {generator: random, box: [[0, 0, 0], [0.105, 0.105, 0.105]], radius: [3 mm, 4.5 mm], count: 2000, density: 2600}
 contacts:
   - )" + law + "\nstages:\n  - go: [" +
-                                    (law == cemented ? "bond: {rule: grains, gap: 1.5 mm}" : "cycle: 1") + "]\n");
+                              (bonds ? "bond: {rule: grains, gap: 1.5 mm}" : "cycle: 1") + "]\n");
+  simulation->engine.forces();
+  if (bonds) simulation->edit(simulation->scene.stages[0].actions[0]);
+  simulation->engine.forces();
+  return simulation;
+}
+
+void look_at_packing(const std::string& law, const std::string& name) {
+  lab::Lab here;
+  const auto simulation = packing(here, law);
   Engine& engine = simulation->engine;
-  engine.forces();
-  if (law == cemented) simulation->edit(simulation->scene.stages[0].actions[0]);
-  engine.forces();
   NetworkQuery query;
   query.links.margin = 1e-6;
   const Links all = gather_links(engine.contacts, engine.balls, engine.walls, engine.cell, query.links, 0,
@@ -96,6 +121,7 @@ contacts:
     shares += " " + lab::number(found.network.step / limit) + " (" + std::to_string(found.sweeps) + ", " +
               lab::number(ms) + " ms)";
   }
+  ask(engine, query, 0);
   const auto begin = std::chrono::steady_clock::now();
   for (int k = 0; k < 20; ++k) {
     engine.forces_outdated();
@@ -118,4 +144,16 @@ TEST_CASE("step OK: a random packing gets more than four fifths of its critical 
 
 TEST_CASE("step OK: a bonded random packing gets more than four fifths of its critical step") {
   look_at_packing(cemented, "step, bonded");
+}
+
+TEST_CASE("step OK: whether a step holds is answered as the bound would, with dashpots too") {
+  for (const char* dashpots : {"", ", dp_nratio: 0.3, dp_sratio: 0.2"}) {
+    lab::Lab here;
+    std::string law = sprung;
+    law.insert(law.size() - 1, dashpots);
+    const auto simulation = packing(here, law);
+    NetworkQuery query;
+    query.links.margin = 1e-4;
+    for (const double local_damping : {0.0, 0.7}) ask(simulation->engine, query, local_damping);
+  }
 }
