@@ -75,6 +75,9 @@ TEST_CASE("scenes of one Hertz contact have PFC's histories to their printed dig
   const auto all = hertz_histories();
   REQUIRE(all.size() == 6);
   for (const auto& [name, instants] : all) {
+    Measure measure("hertz histories, " + name,
+                    "Hertz verification problem of PFC 6, 12 instants, seven printed digits; shear turned there by a "
+                    "formula of second order");
     const std::vector<Row> rows = run(name);
     REQUIRE(rows.size() == 351);
     REQUIRE(instants.size() == 12);
@@ -104,9 +107,6 @@ TEST_CASE("scenes of one Hertz contact have PFC's histories to their printed dig
       off_dashpot = std::max(off_dashpot, off(dashpot, now[9]));
     }
     CHECK(next == instants.size());
-    Measure measure("hertz histories, " + name,
-                    "Hertz verification problem of PFC 6, 12 instants, seven printed digits; shear turned there by a "
-                    "formula of second order");
     measure.check("worst difference of time (s) and overlap (m)", off_motion, 0, 1e-13);
     measure.check("worst difference of a force, relative", off_force, 0, 1e-6);
     measure.check("worst difference of the strain energy, relative", off_strain, 0, 5e-7);
