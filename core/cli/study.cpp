@@ -65,7 +65,8 @@ struct StudyFlags {
     scene.declare(app, true);
     app.add_option("-o,--output", output, "the output folder; by default NAME.study in the working directory")
         ->type_name("DIR");
-    app.add_flag("--quick", quick, "three steps, each half of the one before, and one run of each");
+    app.add_flag("--quick", quick,
+                 "the energy balance alone, over 2 % of the scene, at three steps, each half of the one before");
     app.add_option("--rungs", rungs, "how many steps, each 1/sqrt(2) of the one before; by default 9")
         ->check(CLI::Range(2U, 40U))
         ->type_name("N");

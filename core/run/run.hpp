@@ -28,8 +28,9 @@ struct RunOptions {
   double time_limit = 0;             ///< s of wall time, 0: none; then exit 75, resumable
   double patience = 0;               ///< s that a cycle may take at least before it counts as endless; 0: a minute
   bool allow_plugin_change = false;  ///< resume although a plug-in is not the one that was saved with
-  std::function<void(Simulation&)> at_end;  ///< sees the simulation when all stages are over
-  std::vector<std::string> include_dirs;    ///< resume: where the scene finds files besides its own folder
+  std::function<void(Simulation&)> at_end;    ///< sees the simulation when all stages are over
+  std::function<void(Simulation&)> at_cycle;  ///< sees it when a cycle has its forces, maybe twice; reads only
+  std::vector<std::string> include_dirs;      ///< resume: where the scene finds files besides its own folder
 };
 
 /// What a run left behind, for the terminal.

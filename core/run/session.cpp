@@ -60,6 +60,7 @@ void Session::complete(const Needs& extra) {
     const Watchdog::Section watched(*watchdog_, engine.clock.cycle);
     engine.forces();
     quantities_.follow();
+    if (options_.at_cycle) options_.at_cycle(*simulation_);
   }
   events_.take(engine);
   for (const auto& recorder : recorders_)

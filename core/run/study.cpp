@@ -10,6 +10,7 @@
 #include "core/run/explain.hpp"
 #include "core/run/output_folder.hpp"
 #include "core/run/signals.hpp"
+#include "core/run/study_drift.hpp"
 #include "core/run/study_files.hpp"
 #include "core/run/study_flight.hpp"
 #include "core/run/study_judge.hpp"
@@ -47,12 +48,13 @@ class Studying {
     study_.scene = scene_.file;
     study_.folder = folder_.path();
     cell_from(scene_);
-    for (const Expect& expect : scene_.expect) add_quantity(expect.quantity->text());
+    if (!options.quick)
+      for (const Expect& expect : scene_.expect) add_quantity(expect.quantity->text());
     declared_ = study_.quantities.size();
     for (const std::string& name : options.quantities) add_quantity(name);
-    if (study_.quantities.empty())
+    if (study_.quantities.empty() && !options.quick)
       for (const Quantity& quantity : scene_.quantities) add_quantity(quantity.name);
-    if (study_.quantities.empty())
+    if (study_.quantities.empty() && !options.quick)
       study_.remarks.push_back(
           "The scene has no 'expect' and no 'quantities', and no --quantity was given: only trajectories and energy "
           "are compared.");
@@ -107,6 +109,8 @@ class Studying {
     change.set = point.set;
     if (seed) change.set.emplace_back("seed", std::to_string(*seed));
     Scene scene = changed_scene(options_.read, catalogue_, change, cycle_length_);
+    if (options_.quick) scene.expect.clear();
+    if (quick_time_ > 0) cut_after(scene, quick_time_);
     add_energy(scene);
     // What is measured beside the expectations is read where they are.
     for (std::size_t k = declared_; k < study_.quantities.size(); ++k) {
@@ -136,6 +140,7 @@ class Studying {
     automatic.name = "automatic";
     keep_energy(automatic);
     first_step(automatic);
+    if (options_.quick) shorten();
     options_.note("automatic step: a whole run with it");
     run_full(automatic);
     const StudyRun& run = automatic.runs[0];
@@ -179,6 +184,9 @@ class Studying {
         why = refusal.what();
       }
     ledger_ = nullptr;
+    if (options_.quick && study_.quantities.empty())
+      throw Refusal(Exit::scene, "a quick study compares the energy balance alone, and here is none: " + why +
+                                     "; leave out --quick, or say what to compare with --quantity");
     study_.remarks.push_back("The energy residual is left out: " + why);
   }
 
@@ -216,6 +224,23 @@ class Studying {
         }
   }
 
+  // The beginning of the scene is enough to see whether the energy balance closes, if it has enough cycles to tell.
+  void shorten() {
+    const double whole = length_of(scene_, cycle_length_);
+    const double share = std::max(0.02 * whole, 500 * study_.automatic);
+    if (whole > 0 && share >= whole) {
+      study_.remarks.push_back(
+          "A quick study compares the energy balance alone; the scene is so short that it was run whole.");
+      return;
+    }
+    quick_time_ = share;
+    study_.remarks.push_back(
+        fmt::format("A quick study compares the energy balance alone, and over the first {:.3g} s of the scene{}: two "
+                    "per cent of its "
+                    "time or 500 steps, whichever is longer. What happens later it cannot know.",
+                    share, whole > 0 ? fmt::format(" of {:.3g} s", whole) : ""));
+  }
+
   void find_short(const StudyPoint& automatic, double whole) {
     Scene one = scene_for(automatic), twin = scene_for(automatic);
     double longest = whole;
@@ -224,6 +249,14 @@ class Studying {
     {
       const Hush hush(options_.log);
       horizon_ = find_horizon(one, std::move(twin), catalogue_, quiet_options(), longest);
+    }
+    if (options_.quick) {
+      if (horizon_.usual_step == 0)
+        study_.remarks.push_back(
+            "Nothing touched in the part of the scene that was looked at, so this study says nothing of contacts: "
+            "leave "
+            "out --quick.");
+      return;
     }
     study_.horizon = horizon_.time;
     study_.horizon_reason = horizon_.reason;
@@ -256,7 +289,11 @@ class Studying {
       last = step;
       add_step(StudyPoint::Kind::ladder, fmt::format("automatic/{:.3g}", share), step);
     }
-    if (horizon_.usual_step > 0)
+    if (horizon_.usual_step > 0 && horizon_.soft_walls)
+      study_.remarks.push_back(
+          "The usual step 0.8 sqrt(m/k) is left out: balls touch walls under a law that stiffens with the overlap, and "
+          "the overlap there is not kept, so the step would come out too long.");
+    else if (horizon_.usual_step > 0)
       add_step(StudyPoint::Kind::usual, "0.8 sqrt(m/k)", aligned_step(sample, 0.8 * horizon_.usual_step));
     else
       study_.remarks.push_back(
@@ -284,7 +321,9 @@ class Studying {
       flying.step = study_.horizon / cycles;
       flying.kind = point.kind == StudyPoint::Kind::own ? StudyPoint::Kind::usual : point.kind;
       const Hush hush(options_.log);
-      point.flight = fly(scene_for(flying), catalogue_, quiet_options(), static_cast<uint64_t>(cycles), point.flown);
+      Flight end = fly(scene_for(flying), catalogue_, quiet_options(), static_cast<uint64_t>(cycles), point.flown);
+      point.flight = std::move(end.positions);
+      point.turned = std::move(end.turned);
       if (stopped(point.flown.code)) study_.code = point.flown.code;
     }
   }
@@ -325,8 +364,13 @@ class Studying {
       out.contact_updates = simulation.engine.contact_updates();
       out.ball_steps = simulation.engine.balls.size() * simulation.engine.clock.cycle;
     };
+    ResidualTrace trace;
+    // The repeats are for the wall time: they go without.
+    if (ledger_ != nullptr && point.runs.empty())
+      run.at_cycle = [&trace](Simulation& simulation) { trace.look(simulation); };
     const Hush hush(options_.log);
     const RunResult result = run_scene(std::move(scene), catalogue_, run);
+    out.residual = trace.points();
     out.code = result.code;
     out.message = result.summary.message;
     out.cycles = result.summary.cycles.value_or(0);
@@ -400,6 +444,7 @@ class Studying {
   const Component* ledger_ = nullptr;  ///< the process that keeps the energy account, null: none does
   std::size_t declared_ = 0;           ///< how many of the quantities are those of `expect`
   double cycle_length_ = 0;
+  double quick_time_ = 0;  ///< s of the stages that a quick study runs, 0: all of them
 };
 
 }  // namespace

@@ -40,6 +40,8 @@ struct StudyRun {
   double step = 0, model_time = 0;  ///< s
   double wall = 0;                  ///< s, of the cycles alone
   std::vector<double> values;       ///< of the quantities of the study, in order; empty unless it came to its end
+  /// Cycle and energy residual as a share of what passed through; of the first run of a point only.
+  std::vector<std::pair<double, double>> residual;
 };
 
 /// The same scene at one step, or with one key changed.
@@ -58,6 +60,7 @@ struct StudyPoint {
   std::vector<std::pair<std::string, std::string>> set;
   std::vector<StudyRun> runs;
   std::vector<double> flight;  ///< positions at the horizon, in order of ids, m; empty where there are none
+  std::vector<double> turned;  ///< turns up to the horizon, unit quaternions w x y z; empty where nothing turns balls
   StudyRun flown;              ///< how that short run went; for the points that have a fixed step
 
   bool done() const { return !runs.empty() && !runs[0].values.empty(); }
@@ -75,6 +78,7 @@ struct StudyNorm {
   std::string name;
   bool relative = true;                    ///< errors are shares of the reference; otherwise in its own unit
   bool trajectory = false;                 ///< over all balls at the horizon
+  bool rotation = false;                   ///< the same of their turns, rad
   std::optional<double> reference;         ///< of a quantity
   double uncertainty = 0;                  ///< of the reference, as errors are
   std::string method;                      ///< where the reference comes from
@@ -94,6 +98,13 @@ struct StudyBias {
   bool converged = false;
 };
 
+/// How the energy residual of a point grows with the number of cycles.
+struct StudyDrift {
+  std::string point;
+  double slope = 0, interval = 0;  ///< share of what passed through in 1e6 cycles, and half its 95 % t-interval
+  uint64_t cycles = 0;             ///< over how many it was measured
+};
+
 struct Study {
   Exit code = Exit::done;
   std::string scene, folder;
@@ -104,6 +115,7 @@ struct Study {
   std::vector<StudyPoint> points;
   std::vector<StudyNorm> norms;
   std::vector<StudyBias> biases;
+  std::vector<StudyDrift> drifts;  ///< of the points whose energy is accounted for, 200 cycles at least
   std::vector<std::string> remarks;
   std::string picture;  ///< file, "" where none was drawn
 };

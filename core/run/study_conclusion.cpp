@@ -19,6 +19,7 @@ std::optional<std::size_t> index_of(const Study& study, const std::function<bool
 
 std::string share(const StudyNorm& norm, double error) {
   if (norm.trajectory) return fmt::format("{:.2g} R", error);
+  if (norm.rotation) return fmt::format("{:.2g} rad", error);
   return norm.relative || norm.name == energy_residual ? fmt::format("{:.2g} %", 100 * error)
                                                        : fmt::format("{:.2g}", error);
 }
@@ -31,6 +32,7 @@ std::string errors_at(const Study& study, std::size_t point) {
     if (!entry.error || !std::isfinite(*entry.error)) continue;
     const double bound = entry.resolved ? *entry.error + norm.uncertainty : *entry.error + 3 * norm.uncertainty;
     const std::string name = norm.trajectory                ? "short trajectories"
+                             : norm.rotation                ? "rotations"
                              : norm.name == energy_residual ? "the energy balance"
                                                             : norm.name;
     out += (out.empty() ? "" : ", ") + name + " within " + share(norm, bound);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 
 #include "core/base/file.hpp"
 #include "core/run/study_statistics.hpp"
@@ -54,6 +55,7 @@ std::string error_text(const StudyNorm::Entry& entry) {
 
 std::string norm_title(const StudyNorm& norm) {
   if (norm.trajectory) return "trajectory / R";
+  if (norm.rotation) return "rotation, rad";
   return norm.name + (norm.relative ? ", relative" : "");
 }
 
@@ -111,6 +113,18 @@ std::string seeds_table(const Study& study) {
   return out;
 }
 
+std::string drifts_table(const Study& study) {
+  if (study.drifts.empty()) return "";
+  std::string out =
+      "\nDrift of the energy residual in 1e6 cycles, as a share of what passed through (95 % t-interval of a straight "
+      "line over ten stretches of the run):\n\n| point | drift in 1e6 cycles | interval | cycles measured "
+      "|\n|---|---|---|---|\n";
+  for (const StudyDrift& drift : study.drifts)
+    out += fmt::format("| {} | {:.2e} | {:.2e} | {}{} |\n", drift.point, drift.slope, drift.interval, drift.cycles,
+                       std::fabs(drift.slope) > drift.interval ? "" : ", none shown");
+  return out;
+}
+
 }  // namespace
 
 StudyCost cost_of(const StudyPoint& point) {
@@ -158,6 +172,10 @@ std::string study_table(const Study& study) {
       out += head + "," + quoted(norm.name) + "," + number(entry.value) + "," + number(norm.reference) + "," +
              number(norm.uncertainty) + "," + number(entry.error) + (entry.resolved ? ",yes" : ",no") + walls + "\n";
     }
+    for (const StudyDrift& drift : study.drifts)
+      if (drift.point == point.name)
+        out += head + ",energy.residual_share per 1e6 cycles," + number(drift.slope) + ",," + number(drift.interval) +
+               ",," + walls + "\n";
     if (!any) out += head + ",,,,,," + walls + "\n";
   }
   return out;
@@ -168,7 +186,7 @@ std::string study_report(const Study& study) {
   out += fmt::format("The least automatic step was {:.6g} s.", study.automatic);
   if (study.horizon > 0)
     out += fmt::format(" Trajectories are compared after {:.6g} s, when {}.", study.horizon, study.horizon_reason);
-  out += "\n\n" + points_table(study) + "\n" + norms_table(study) + seeds_table(study);
+  out += "\n\n" + points_table(study) + "\n" + norms_table(study) + drifts_table(study) + seeds_table(study);
   if (!study.picture.empty()) out += "\n![error against run time](" + study.picture + ")\n";
   if (!study.remarks.empty()) out += "\n";
   for (const std::string& remark : study.remarks) out += "* " + remark + "\n";

@@ -1,6 +1,7 @@
 #include "core/run/study_flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -80,6 +81,46 @@ class Collisions {
   bool seen_ = false;
 };
 
+/// How far each ball has turned. The kernel keeps no orientation, since no force of a ball depends on it: the spins of
+/// the half steps are added up here, each as the exact turn about its axis over the step.
+class Turns {
+ public:
+  explicit Turns(const Engine& engine) {
+    if (engine.balls.has(Column::wx)) of_.resize(engine.balls.size(), {1, 0, 0, 0});
+  }
+  void follow(const Engine& engine) {
+    if (of_.empty()) return;
+    if (order_.empty() || rebuilds_ != engine.rebuilds()) order_ = by_id(engine.balls);
+    rebuilds_ = engine.rebuilds();
+    const double *x = engine.balls[Column::wx], *y = engine.balls[Column::wy], *z = engine.balls[Column::wz];
+    for (std::size_t k = 0; k < of_.size(); ++k) {
+      const std::size_t row = order_[k];
+      const double spin = std::sqrt(x[row] * x[row] + y[row] * y[row] + z[row] * z[row]);
+      if (!(spin > 0)) continue;
+      const double half = 0.5 * spin * engine.clock.dt, share = std::sin(half) / spin;
+      turn(of_[k], {std::cos(half), share * x[row], share * y[row], share * z[row]});
+    }
+  }
+  std::vector<double> all() const {
+    std::vector<double> out;
+    for (const Quaternion& one : of_) out.insert(out.end(), one.begin(), one.end());
+    return out;
+  }
+
+ private:
+  using Quaternion = std::array<double, 4>;
+  static void turn(Quaternion& q, const Quaternion& by) {
+    const Quaternion p = q;
+    q = {by[0] * p[0] - by[1] * p[1] - by[2] * p[2] - by[3] * p[3],
+         by[0] * p[1] + by[1] * p[0] + by[2] * p[3] - by[3] * p[2],
+         by[0] * p[2] - by[1] * p[3] + by[2] * p[0] + by[3] * p[1],
+         by[0] * p[3] + by[1] * p[2] - by[2] * p[1] + by[3] * p[0]};
+  }
+  std::vector<Quaternion> of_;      ///< in order of ids
+  std::vector<std::size_t> order_;  ///< rows in order of ids; rows move when lists are built
+  uint64_t rebuilds_ = 0;
+};
+
 void describe(Horizon& out, const Engine& engine) {
   out.first_step = engine.clock.dt;
   out.dashpots = engine.local_damping() > 0;
@@ -87,6 +128,14 @@ void describe(Horizon& out, const Engine& engine) {
   out.mass = in_order(engine.balls, {Column::mass});
   out.radius = median(in_order(engine.balls, {Column::radius}));
   out.start = positions(engine);
+}
+
+bool touches_stiffening_wall(const Contacts& contacts) {
+  const auto& lists = contacts.wall_lists();
+  return std::any_of(lists.begin(), lists.end(), [&](const WallList& list) {
+    const BoundRule& rule = contacts.book.rules[list.rule];
+    return !list.slots.empty() && rule.model != nullptr && (rule.model->flags & SCREE_NONLINEAR) != 0;
+  });
 }
 
 void refuse_signal() {
@@ -124,6 +173,7 @@ Horizon find_horizon(const Scene& scene, Scene second, Catalogue& catalogue, con
     const DiagonalRule usual = diagonal_rule(one->engine.contacts, one->engine.balls, one->engine.cell);
     if (usual.step > 0 && (out.usual_step == 0 || usual.step < out.usual_step)) out.usual_step = usual.step;
     out.dashpots = out.dashpots || usual.dashpots;
+    out.soft_walls = out.soft_walls || touches_stiffening_wall(one->engine.contacts);
     if (cycle % 10 == 0) {
       refuse_signal();
       if (largest_distance(one->engine, twin->engine) >= 1e-3 * out.radius) {
@@ -138,18 +188,20 @@ Horizon find_horizon(const Scene& scene, Scene second, Catalogue& catalogue, con
   return out;
 }
 
-std::vector<double> fly(Scene scene, Catalogue& catalogue, const RunOptions& options, uint64_t cycles, StudyRun& run) {
-  std::vector<double> end;
+Flight fly(Scene scene, Catalogue& catalogue, const RunOptions& options, uint64_t cycles, StudyRun& run) {
+  Flight end;
   try {
     const auto simulation = begin_scene(std::move(scene), catalogue, options);
     stand_before_first_cycle(*simulation);
     Engine& engine = simulation->engine;
     run.step = engine.clock.dt;
+    Turns turns(engine);
     const auto begun = std::chrono::steady_clock::now();
     for (uint64_t cycle = 0; cycle < cycles; ++cycle) {
       if (cycle % 64 == 0) refuse_signal();
       engine.forces();
       engine.advance();
+      turns.follow(engine);
     }
     run.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     run.cycles = cycles;
@@ -157,11 +209,13 @@ std::vector<double> fly(Scene scene, Catalogue& catalogue, const RunOptions& opt
     run.ball_steps = cycles * engine.balls.size();
     run.contact_updates = engine.contact_updates();
     run.state_hash = engine.state_hash();
-    end = positions(engine);
-    if (!std::all_of(end.begin(), end.end(), [](double x) { return std::isfinite(x); })) {
+    end = {positions(engine), turns.all()};
+    const auto finite = [](double x) { return std::isfinite(x); };
+    if (!std::all_of(end.positions.begin(), end.positions.end(), finite) ||
+        !std::all_of(end.turned.begin(), end.turned.end(), finite)) {
       run.code = Exit::numerical;
       run.message = "positions are not finite";
-      end.clear();
+      end = {};
     }
   } catch (const Refusal& refusal) {
     run.code = refusal.code();

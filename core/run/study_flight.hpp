@@ -11,6 +11,7 @@ struct Horizon {
   double time = 0;            ///< s
   std::string reason;         ///< what ends it
   double usual_step = 0;      ///< s, the least sqrt(m/k) over balls and axes that was met; 0: nothing touched
+  bool soft_walls = false;    ///< that counts walls too soft: under a law that stiffens it has no overlap there
   double first_step = 0;      ///< s, the step of the first cycle
   bool dashpots = false;      ///< contacts have dashpots, or balls are damped
   bool impacts = false;       ///< contacts began
@@ -25,8 +26,13 @@ struct Horizon {
 /// whichever comes first. The scene has its own step or the automatic one.
 Horizon find_horizon(const Scene& scene, Scene twin, Catalogue& catalogue, const RunOptions& options, double longest);
 
-/// The scene from its first cycle over a time that its fixed step divides: positions at the end. `run` says how it
-/// went.
-std::vector<double> fly(Scene scene, Catalogue& catalogue, const RunOptions& options, uint64_t cycles, StudyRun& run);
+/// Where a short run ended.
+struct Flight {
+  std::vector<double> positions;  ///< in order of ids, m; empty when the run failed
+  std::vector<double> turned;     ///< unit quaternions w x y z, in order of ids; empty where nothing turns balls
+};
+
+/// The scene from its first cycle over a time that its fixed step divides. `run` says how it went.
+Flight fly(Scene scene, Catalogue& catalogue, const RunOptions& options, uint64_t cycles, StudyRun& run);
 
 }  // namespace scree::core

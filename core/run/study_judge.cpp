@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "core/run/study_drift.hpp"
 #include "core/run/study_statistics.hpp"
 
 namespace scree::core {
@@ -103,7 +104,7 @@ void measure(const Study& study, const Measured& m, StudyNorm& norm) {
     return;
   }
   const Values exact = reference(study, m, finest, norm);
-  if (!norm.trajectory) norm.reference = exact[0];
+  if (!norm.trajectory && !norm.rotation) norm.reference = exact[0];
   for (std::size_t k = 0; k < study.points.size(); ++k) {
     StudyNorm::Entry& entry = norm.entries[k];
     if (m.of[k] == nullptr) continue;
@@ -144,6 +145,48 @@ StudyNorm trajectory(const Study& study, const Horizon& horizon, const PeriodicC
       travel = m.distance(point.flight, horizon.start);
   }
   m.useless = 0.3 * travel;
+  measure(study, m, norm);
+  return norm;
+}
+
+// 2 acos|q.q'|, from the sine where the turn is small and the cosine says nothing.
+double angle_between(const double* q, const double* p) {
+  const double along = std::fabs(q[0] * p[0] + q[1] * p[1] + q[2] * p[2] + q[3] * p[3]);
+  double across = 0;
+  const double turn[3] = {q[0] * p[1] - q[1] * p[0] - q[2] * p[3] + q[3] * p[2],
+                          q[0] * p[2] + q[1] * p[3] - q[2] * p[0] - q[3] * p[1],
+                          q[0] * p[3] - q[1] * p[2] + q[2] * p[1] - q[3] * p[0]};
+  for (const double one : turn) across += one * one;
+  return 2 * std::atan2(std::sqrt(across), along);
+}
+
+// Absent where no ball turns by more than rounding.
+std::optional<StudyNorm> rotation(const Study& study, const Horizon& horizon) {
+  StudyNorm norm;
+  norm.name = "rotation";
+  norm.rotation = true;
+  norm.relative = false;
+  promise(norm, horizon);
+  Measured m;
+  double mass = 0;
+  for (double one : horizon.mass) mass += one;
+  m.distance = [&, mass](const Values& a, const Values& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k + 3 < a.size() && k + 3 < b.size(); k += 4) {
+      const double angle = angle_between(&a[k], &b[k]);
+      sum += horizon.mass[k / 4] * angle * angle;
+    }
+    return std::sqrt(sum / mass);
+  };
+  Values still(4 * horizon.mass.size(), 0.0);
+  for (std::size_t k = 0; k < still.size(); k += 4) still[k] = 1;
+  double turn = 0;
+  for (const StudyPoint& point : study.points) {
+    m.of.push_back(point.turned.empty() ? nullptr : &point.turned);
+    if (!point.turned.empty() && point.kind == StudyPoint::Kind::ladder) turn = m.distance(point.turned, still);
+  }
+  if (!(turn > 1e-9)) return std::nullopt;
+  m.useless = 0.3 * turn;
   measure(study, m, norm);
   return norm;
 }
@@ -214,9 +257,11 @@ void judge(Study& study, const Horizon& horizon, const std::vector<ExpectationRe
            const PeriodicCell& cell) {
   study.norms.clear();
   study.biases.clear();
+  study.drifts = drifts(study);
   const bool flown = std::any_of(study.points.begin(), study.points.end(),
                                  [](const StudyPoint& point) { return !point.flight.empty(); });
   if (flown) study.norms.push_back(trajectory(study, horizon, cell));
+  if (auto turns = rotation(study, horizon)) study.norms.push_back(std::move(*turns));
   for (std::size_t k = 0; k < study.quantities.size(); ++k) {
     study.norms.push_back(quantity(study, horizon, k, expected));
     judge_seeds(study, k);

@@ -53,4 +53,31 @@ Mean mean_of(const std::vector<double>& values) {
   return out;
 }
 
+std::optional<Slope> slope_of(const std::vector<std::pair<double, double>>& points) {
+  constexpr std::size_t stretches = 10;
+  if (points.size() < 2 * stretches || !(points.back().first > points.front().first)) return std::nullopt;
+  double x[stretches] = {}, y[stretches] = {}, middle = 0, level = 0;
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const std::size_t first = s * points.size() / stretches, last = (s + 1) * points.size() / stretches;
+    for (std::size_t k = first; k < last; ++k) {
+      x[s] += points[k].first / static_cast<double>(last - first);
+      y[s] += points[k].second / static_cast<double>(last - first);
+    }
+    middle += x[s] / stretches;
+    level += y[s] / stretches;
+  }
+  double xx = 0, xy = 0, squares = 0;
+  for (std::size_t s = 0; s < stretches; ++s) {
+    xx += (x[s] - middle) * (x[s] - middle);
+    xy += (x[s] - middle) * (y[s] - level);
+  }
+  Slope out{xy / xx, 0};
+  for (std::size_t s = 0; s < stretches; ++s) {
+    const double off = y[s] - level - out.slope * (x[s] - middle);
+    squares += off * off;
+  }
+  out.interval = t_quantile(stretches - 2) * std::sqrt(squares / (stretches - 2) / xx);
+  return out;
+}
+
 }  // namespace scree::core

@@ -22,4 +22,12 @@ struct Mean {
 };
 Mean mean_of(const std::vector<double>& values);
 
+/// A straight line through (first, second) by least squares over the means of ten stretches of equal count, which
+/// are taken as independent where neighbours are not; firsts ascend. Absent with fewer than twenty points.
+struct Slope {
+  double slope = 0;
+  double interval = 0;  ///< half the 95 % t-interval
+};
+std::optional<Slope> slope_of(const std::vector<std::pair<double, double>>& points);
+
 }  // namespace scree::core

@@ -63,6 +63,37 @@ Scene changed_scene(const ReadOptions& base, Catalogue& catalogue, const StudyCh
   return scene;
 }
 
+double length_of(const Scene& scene, double cycle_length) {
+  double sum = 0;
+  for (const Stage& stage : scene.stages)
+    for (const Action& action : stage.actions)
+      if (const auto* run = std::get_if<RunAction>(&action.what)) {
+        if (run->length.time)
+          sum += *run->length.time;
+        else if (run->length.cycles && run->until.empty())
+          sum += static_cast<double>(*run->length.cycles) * cycle_length;
+      }
+  return sum;
+}
+
+void cut_after(Scene& scene, double time) {
+  for (std::size_t s = 0; s < scene.stages.size(); ++s) {
+    auto& actions = scene.stages[s].actions;
+    for (std::size_t a = 0; a < actions.size(); ++a) {
+      auto* run = std::get_if<RunAction>(&actions[a].what);
+      if (run == nullptr) continue;
+      if (run->length.time && *run->length.time < time) {
+        time -= *run->length.time;
+        continue;
+      }
+      run->length.time = time;
+      actions.erase(actions.begin() + static_cast<std::ptrdiff_t>(a) + 1, actions.end());
+      scene.stages.erase(scene.stages.begin() + static_cast<std::ptrdiff_t>(s) + 1, scene.stages.end());
+      return;
+    }
+  }
+}
+
 double aligned_step(const Scene& scene, double step) {
   double measure = 0;
   for (const Stage& stage : scene.stages)

@@ -24,6 +24,13 @@ Scene changed_scene(const ReadOptions& base, Catalogue& catalogue, const StudyCh
 /// a step early or late; `step` itself where the lengths have no common measure of at least four steps.
 double aligned_step(const Scene& scene, double step);
 
+/// The time that the stages run, s. What a test ends counts with the latest end it may have, if that is a time: cycles
+/// given there are a guard and say little. `cycle_length`: what a cycle counts elsewhere, s.
+double length_of(const Scene& scene, double cycle_length);
+
+/// Ends the scene after `time` seconds of its stages: what comes later is taken out.
+void cut_after(Scene& scene, double time);
+
 /// The first action that runs cycles.
 const RunAction& first_run(const Scene& scene);
 

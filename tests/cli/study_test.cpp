@@ -1,4 +1,5 @@
 // `scree study`: orders it measures on scenes whose order is known, what it writes, and what it refuses.
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
@@ -61,6 +62,13 @@ std::string without_wall(const std::string& table) {
   return out;
 }
 
+std::vector<std::string> parted(const std::string& line) {
+  std::istringstream fields(line);
+  std::vector<std::string> out;
+  for (std::string field; std::getline(fields, field, ',');) out.push_back(field);
+  return out;
+}
+
 }  // namespace
 
 TEST_CASE("a smooth scene converges with order 2, in trajectory and quantity", "[study]") {
@@ -74,6 +82,7 @@ TEST_CASE("a smooth scene converges with order 2, in trajectory and quantity", "
   CHECK(after(end.out, "balls.1.position.z: order ") == Approx(2).margin(0.2));
   // Contacts that stay closed balance to rounding.
   CHECK(has(end.out, "energy.residual_share.peak: no order (fewer than three rungs have a small error"));
+  CHECK_FALSE(has(end.out, "rotation"));
   CHECK(has(end.out, "For this scene the automatic step ("));
   CHECK(has(end.out, "half of it gives short trajectories within "));
   CHECK(has(end.out, "balls.1.position.z within "));
@@ -84,6 +93,113 @@ TEST_CASE("a smooth scene converges with order 2, in trajectory and quantity", "
   CHECK(has(report, "| 0.8 sqrt(m/k) | "));
   CHECK(has(report, "harmonic motion"));
   CHECK_FALSE(has(report, "(off)"));
+}
+
+TEST_CASE("turns are compared where balls turn, and converge with order 2", "[study]") {
+  const Folder at;
+  // The shear springs of both floors hold the ball's spin, which swings without sliding.
+  std::string text = oscillator("", "kn: 100 kN/m, ks: 5 kN/m, fric: 1000");
+  text.replace(text.find("velocity: [0, 0, 0.2]"), 21, "spin: [0, 30, 0]");
+  const ProgramEnd end = at.study(text);
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  CHECK(after(end.out, "rotation: order ") == Approx(2).margin(0.1));
+  CHECK(has(end.out, "rotations within "));
+  CHECK(has(read_text(at.folder / "scene.study/study.md"), "| rotation, rad | "));
+  // Leapfrog of a harmonic swing with n steps: w0 sin(n p)/(w cos(p/2)), sin(p/2) = w dt/2; exactly w0 sin(w t)/w.
+  const double radius = 0.01, lever = 0.0099, inertia = 0.4 * 4 / 3 * std::acos(-1.0) * std::pow(radius, 5) * 2500;
+  const double w = std::sqrt(2 * 5e3 * lever * lever / inertia), t = 3e-3;
+  const std::string table = read_text(at.folder / "scene.study/study.csv");
+  std::istringstream lines(table);
+  std::string line;
+  unsigned seen = 0;
+  while (std::getline(lines, line)) {
+    if (!has(line, ",ladder,") || !has(line, ",rotation,")) continue;
+    const std::vector<std::string> fields = parted(line);
+    const double n = std::stod(fields[4]), p = 2 * std::asin(w * t / n / 2);
+    const double wrong = 30 / w * std::abs(std::sin(n * p) / std::cos(p / 2) - std::sin(w * t));
+    INFO(line);
+    CHECK(std::stod(fields[12]) == Approx(wrong).epsilon(0.02).margin(std::stod(fields[11])));
+    ++seen;
+  }
+  CHECK(seen == 9);
+}
+
+TEST_CASE("the drift of the energy residual is measured over the cycles of long runs", "[study]") {
+  const Folder at;
+  std::string text = oscillator("expect: [{quantity: balls.1.position.z, at_least: -1}]\n");
+  text.replace(text.find("run: 3 ms"), 9, "run: 100 ms");
+  const ProgramEnd end = at.study(text, {"--rungs", "2"});
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  const std::string table = read_text(at.folder / "scene.study/study.csv");
+  INFO(table);
+  const std::size_t rung = table.find("automatic/1.41,ladder,");
+  REQUIRE(rung != std::string::npos);
+  // Contacts that stay closed balance to rounding, so nothing may drift.
+  const std::string row = "energy.residual_share per 1e6 cycles,";
+  REQUIRE(table.find(row, rung) != std::string::npos);
+  CHECK(std::abs(std::stod(table.substr(table.find(row, rung) + row.size()))) < 1e-6);
+  CHECK(has(read_text(at.folder / "scene.study/study.md"), "Drift of the energy residual in 1e6 cycles"));
+}
+
+TEST_CASE("a quick study runs the beginning of a scene and compares its energy balance alone", "[study]") {
+  const Folder at;
+  std::string text = oscillator("expect: [{quantity: balls.1.position.z, at_least: -1}]\n");
+  text.replace(text.find("run: 3 ms"), 9,
+               "run: 1 s, add: {walls: {late: {wall: plane, point: [0, 0, -1], normal: [0, 0, 1]}}}, run: 9 s");
+  const ProgramEnd end = at.study(text, {"--quick"});
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  const std::string report = read_text(at.folder / "scene.study/study.md"), first = "over the first ";
+  INFO(report);
+  // 500 steps of 0.42 ms are more than 2 % of 10 s.
+  REQUIRE(has(report, first));
+  const double span = std::stod(report.substr(report.find(first) + first.size()));
+  CHECK(span == Approx(500 * after(report, "The least automatic step was ")).epsilon(0.01));
+  CHECK(has(report, " of 10 s"));
+  CHECK(has(end.out, "energy.residual_share.peak: "));
+  CHECK_FALSE(has(end.out, "trajectory"));
+  CHECK_FALSE(has(end.out, "balls.1.position.z"));
+  CHECK_FALSE(has(report, "Nothing touched"));
+  const std::string table = read_text(at.folder / "scene.study/study.csv");
+  std::istringstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    if (has(line, "numerical_stop")) continue;
+    INFO(line);
+    CHECK(std::stod(parted(line).at(5)) == Approx(span).epsilon(0.01));
+  }
+}
+
+TEST_CASE("a quick study of a flight says that it knows nothing of contacts", "[study]") {
+  const Folder at;
+  std::string text = oscillator();
+  text.replace(text.find("[0, 0, -0.0098]"), 15, "[0, 0, -1]");
+  text.replace(text.find("[0, 0, 0.0098]"), 14, "[0, 0, 1]");
+  // The cycles of `solve` are a guard, not a length.
+  text.replace(text.find("run: 3 ms"), 9, "run: 100 s, solve: {unbalanced: 1e-5, at_most: 200000000 cycles}");
+  const ProgramEnd end = at.study(text, {"--quick"});
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  const std::string report = read_text(at.folder / "scene.study/study.md");
+  INFO(report);
+  CHECK(has(report, "over the first 2 s of the scene of 100 s"));
+  CHECK(has(report, "Nothing touched in the part of the scene"));
+}
+
+TEST_CASE("the usual step is left out where walls stiffen with an overlap it does not know", "[study]") {
+  const Folder at;
+  std::string text = oscillator();
+  text.replace(text.find("model: linear, kn: 100 kN/m, ks: 0"), 34,
+               "model: hertz_mindlin, shear: 1 GPa, poiss: 0.25, dp_nratio: 0");
+  const ProgramEnd end = at.study(text, {"--rungs", "2"});
+  INFO(end.err << end.out);
+  REQUIRE(end.code == 0);
+  const std::string report = read_text(at.folder / "scene.study/study.md");
+  CHECK_FALSE(has(report, "| 0.8 sqrt(m/k) | "));
+  CHECK(has(report, "usual step 0.8 sqrt(m/k) is left out: balls touch walls"));
 }
 
 TEST_CASE("a dashpot is of order 1, and that is expected", "[study]") {

@@ -1,32 +1,11 @@
 // PFC's own histories of one contact under Hertz's law, met to their printed digits: hertz_histories.csv says whence.
-#include <fstream>
-#include <map>
-#include <sstream>
-
+#include "support/hertz_histories.hpp"
 #include "laws/hertz_contact.hpp"
-#include "support/paths.hpp"
 
 namespace {
 using namespace scree::test;
 using scree::Vec3;
-
-/// The instants of one case, each a line of the file: time, overlap, forces and energies.
 using Instant = std::vector<double>;
-std::map<std::string, std::vector<Instant>> histories() {
-  std::ifstream file(support::source_dir() + "/tests/laws/hertz_histories.csv");
-  std::map<std::string, std::vector<Instant>> all;
-  std::string line;
-  while (std::getline(file, line)) {
-    if (line[0] == '#' || line.rfind("case", 0) == 0) continue;
-    std::istringstream fields(line);
-    std::string name, field;
-    std::getline(fields, name, ',');
-    Instant instant;
-    while (std::getline(fields, field, ',')) instant.push_back(std::stod(field));
-    all[name].push_back(instant);
-  }
-  return all;
-}
 
 /// The contact under the program of PFC's example: 0.1 s together, 0.05 s of shear along x and along z, 0.05 s of twist
 /// of one piece, 0.1 s apart, in steps of a millisecond.
@@ -64,7 +43,7 @@ struct Replay {
 }  // namespace
 
 TEST_CASE("hertz_mindlin: forces and energies of PFC's histories of one contact") {
-  const auto all = histories();
+  const auto all = support::hertz_histories();
   REQUIRE(all.size() == 6);
   for (const auto& [name, instants] : all) {
     REQUIRE(instants.size() == 12);

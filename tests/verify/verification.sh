@@ -11,8 +11,10 @@ rows=$work/rows
 failed=0
 
 # Scenes: what the program itself reports in summary.json.
-for scene in tests/scenes/*.yaml; do
+for scene in tests/scenes/*.yaml examples/problems/*/*.yaml; do
   name=$(basename "$scene" .yaml)
+  # The folders of the classic problems begin with their numbers.
+  case $scene in examples/*) name=$(basename "$(dirname "$scene")" | sed 's/_.*//')_$name ;; esac
   code=0
   "$build/bin/scree" run "$scene" -o "$work/$name" --quiet > "$work/log" 2>&1 || code=$?
   if [ "$code" -ne 0 ]; then
@@ -21,7 +23,7 @@ for scene in tests/scenes/*.yaml; do
     failed=1
   fi
   [ -f "$work/$name/summary.json" ] || continue
-  jq -r --arg name "$name" '.wall_time as $seconds | .expectations[]
+  jq -r --arg name "$name" '.wall_time as $seconds | .expectations[] | select(.equals != null)
     | [$name, .quantity, .value, .equals, .tolerance, $seconds, .source] | @tsv' "$work/$name/summary.json" >> "$rows"
 done
 
@@ -36,8 +38,8 @@ sed -n 's/^MEASURE\t//p' "$work/tests" >> "$rows"
   cat << 'TEXT'
 # Verification
 
-Cases with a known answer, each as a scene or a test in `tests/scenes`. `./dev verify` runs them all and writes this page.
-A scene's rows are the `expect` entries of its `summary.json`; the other rows come from tests that need many runs. The
+Cases with a known answer, each as a scene in `tests/scenes` or `examples/problems` or as a test in `tests/scenes`. `./dev verify` runs them all and writes this page.
+A scene's rows are the `expect` entries of its `summary.json` that have a value; the other rows come from tests that need many runs. The
 time is that of the run in seconds, for tests since the row before; 0 means that the row was read off an earlier run.
 How the error falls with the step, and what it costs, is in [study.md](study.md).
 
