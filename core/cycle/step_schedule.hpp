@@ -13,7 +13,7 @@ class StepSchedule {
   /// What the plan looks at.
   struct Motion {
     double closing = 0;    ///< m, by which pieces may approach in the coming cycle
-    double skin_left = 0;  ///< m, after which lists are rebuilt, and the step estimated anyway
+    double skin_left = 0;  ///< m, that an estimate may look ahead: at most to where lists are rebuilt
     double radius = 0;     ///< m, least
   };
   /// Margin and sweeps of the estimate at this cycle, which is taken as made.
