@@ -3,7 +3,7 @@
 
 namespace scree::core {
 
-/// The rule that most programs choose their step by, over the contacts that are active now.
+/// The rule that most programs choose their step by, over the contacts of now.
 struct DiagonalRule {
   /// The least sqrt(m/k) and sqrt(I/k_rot) over balls and axes x, y, z, with k the diagonal of the summed stiffness of
   /// a ball's contacts, s; 0 while nothing touches. The usual step is 0.8 of it (Itasca, PFC manual; the same sums in
@@ -12,7 +12,8 @@ struct DiagonalRule {
   bool dashpots = false;  ///< one of the contacts has a dashpot
 };
 
-/// [one thread, between passes]
-DiagonalRule diagonal_rule(const Contacts& contacts, const Balls& balls, const PeriodicCell& cell);
+/// [between passes]
+DiagonalRule diagonal_rule(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
+                           const PeriodicCell& cell, Team& team);
 
 }  // namespace scree::core

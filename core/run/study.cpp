@@ -289,11 +289,7 @@ class Studying {
       last = step;
       add_step(StudyPoint::Kind::ladder, fmt::format("automatic/{:.3g}", share), step);
     }
-    if (horizon_.usual_step > 0 && horizon_.soft_walls)
-      study_.remarks.push_back(
-          "The usual step 0.8 sqrt(m/k) is left out: balls touch walls under a law that stiffens with the overlap, and "
-          "the overlap there is not kept, so the step would come out too long.");
-    else if (horizon_.usual_step > 0)
+    if (horizon_.usual_step > 0)
       add_step(StudyPoint::Kind::usual, "0.8 sqrt(m/k)", aligned_step(sample, 0.8 * horizon_.usual_step));
     else
       study_.remarks.push_back(

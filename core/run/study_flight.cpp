@@ -130,14 +130,6 @@ void describe(Horizon& out, const Engine& engine) {
   out.start = positions(engine);
 }
 
-bool touches_stiffening_wall(const Contacts& contacts) {
-  const auto& lists = contacts.wall_lists();
-  return std::any_of(lists.begin(), lists.end(), [&](const WallList& list) {
-    const BoundRule& rule = contacts.book.rules[list.rule];
-    return !list.slots.empty() && rule.model != nullptr && (rule.model->flags & SCREE_NONLINEAR) != 0;
-  });
-}
-
 void refuse_signal() {
   if (stop_signal() != 0) throw Refusal(stop_exit(stop_signal()), "stopped by a signal");
 }
@@ -170,10 +162,10 @@ Horizon find_horizon(const Scene& scene, Scene second, Catalogue& catalogue, con
     collisions.look(one->engine);
     const double now = one->engine.clock.time();
     if (collisions.per_ball(one->engine.balls.size()) >= 3) take(now, "each ball has collided three times on average");
-    const DiagonalRule usual = diagonal_rule(one->engine.contacts, one->engine.balls, one->engine.cell);
+    Engine& engine = one->engine;
+    const DiagonalRule usual = diagonal_rule(engine.contacts, engine.balls, engine.walls, engine.cell, engine.team);
     if (usual.step > 0 && (out.usual_step == 0 || usual.step < out.usual_step)) out.usual_step = usual.step;
     out.dashpots = out.dashpots || usual.dashpots;
-    out.soft_walls = out.soft_walls || touches_stiffening_wall(one->engine.contacts);
     if (cycle % 10 == 0) {
       refuse_signal();
       if (largest_distance(one->engine, twin->engine) >= 1e-3 * out.radius) {

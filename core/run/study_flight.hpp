@@ -11,7 +11,6 @@ struct Horizon {
   double time = 0;            ///< s
   std::string reason;         ///< what ends it
   double usual_step = 0;      ///< s, the least sqrt(m/k) over balls and axes that was met; 0: nothing touched
-  bool soft_walls = false;    ///< that counts walls too soft: under a law that stiffens it has no overlap there
   double first_step = 0;      ///< s, the step of the first cycle
   bool dashpots = false;      ///< contacts have dashpots, or balls are damped
   bool impacts = false;       ///< contacts began
