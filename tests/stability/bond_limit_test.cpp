@@ -1,37 +1,20 @@
 // Cases 11, 31, 37, D40, D43: long chains, and bonds of no width or too much of it.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/base/philox.hpp"
 #include "core/run/sanity.hpp"
+#include "stability/bonded_scene.hpp"
 #include "stability/lab.hpp"
-#include "support/measure.hpp"
 #include "support/program.hpp"
-#include "support/scene_run.hpp"
 
+using namespace bonded;
 using namespace support;
 using scree::core::Column;
 
 namespace {
 
-constexpr double kn = 1e6;
-const double mass = 2500 * 4.0 / 3 * std::numbers::pi * 1e-6;  // of 10 mm
-
-void edit(SceneRun& run) {
-  for (const auto& action : run.simulation().scene.stages.at(0).actions) run.simulation().edit(action);
-  run.engine().forces();
-  run.engine().sums_wanted = run.engine().report_wanted = false;
-}
-
-std::string chain(const std::string& law, const std::string& more = "") {
-  return "scree: 1\nballs:\n  chain: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n  - {name: glue, "
-         "between: "
-         "[chain, chain], " +
-         law + "}\nstages:\n  - glue:\n    - bond: {rule: glue, gap: 1e-6}\n" + more;
-}
-
-const std::string endless = "model: contact_bond, kn: 1e6, ks: 0, cb_tenf: .inf, cb_shearf: .inf";
+const std::string endless_spring = "model: contact_bond, kn: 1e6, ks: 0, " + bonded::endless;
 
 }  // namespace
 
@@ -68,7 +51,7 @@ TEST_CASE("31 OK: a wave runs along a row with d sqrt(k/m)") {
   std::string balls = "x,y,z,radius,vx,vy,vz\n";
   for (int k = 0; k < 1000; ++k)
     balls += digits(0.02 * k) + ",0,0,0.01," + digits(1e-3 * std::exp(-0.5 * std::pow((k - 200) / 25.0, 2))) + ",0,0\n";
-  SceneRun run(chain(endless), balls);
+  SceneRun run(chain(endless_spring), balls);
   edit(run);
   const auto& all = run.engine().balls;
   std::size_t row[2] = {lab::row_of(run.simulation(), 351), lab::row_of(run.simulation(), 851)};
@@ -98,7 +81,7 @@ TEST_CASE("D40 OK: a chain of 1000 bonded balls is stable, and stretches as it s
   std::string balls = "x,y,z,radius,group\n";
   for (int k = 0; k < 1000; ++k)
     balls += digits(0.02 * k) + ",0,0,0.01," + (k == 0 ? "root" : k == 999 ? "tip" : "mid") + "\n";
-  const double area = std::numbers::pi * 1e-4, stretch = 999.0 / kn;
+  const double stretch = 999.0 / kn;
   SceneRun run(
       chain("model: parallel_bond, kn: 0, ks: 0, fric: 0, pb_ten: .inf, pb_coh: .inf, pb_kn: " + digits(kn / area) +
                 ", pb_ks: " + digits(kn / area / 2.5),

@@ -5,23 +5,14 @@
 
 #include "core/base/philox.hpp"
 #include "core/run/sanity.hpp"
+#include "stability/bonded_scene.hpp"
 #include "stability/lab.hpp"
-#include "support/measure.hpp"
-#include "support/scene_run.hpp"
 
+using namespace bonded;
 using namespace support;
 using scree::core::Column;
 
 namespace {
-
-constexpr double kn = 1e6;
-const double mass = 2500 * 4.0 / 3 * std::numbers::pi * 1e-6;  // of 10 mm
-
-/// The actions of the first stage that are no run.
-void edit(SceneRun& run) {
-  for (const auto& action : run.simulation().scene.stages.at(0).actions) run.simulation().edit(action);
-  run.engine().forces();
-}
 
 /// Sixteen balls of 10 mm in a periodic row, a a b b a a b b ..., bonded: a-a is `ratio` times as stiff as a-b.
 struct Row {
@@ -59,12 +50,11 @@ Held hold(SceneRun& run, double critical) {
 
 TEST_CASE("1 3 OK: bonded neighbours whose stiffness differs 1e12 times stay bounded and keep their energy") {
   const Row row;
-  const std::string endless = ", fric: 0, cb_tenf: .inf, cb_shearf: .inf",
+  const std::string unbroken = ", fric: 0, " + endless,
                     plain = "kn: 0, ks: 0, fric: 0, pb_ks: 0, pb_ten: .inf, pb_coh: .inf, pb_kn: ";
-  const double area = std::numbers::pi * 1e-4;
   std::string said;
-  for (const auto& rules : {row.rules("contact_bond", "kn: " + digits(kn) + ", ks: 0" + endless,
-                                      "kn: " + digits(kn * 1e-12) + ", ks: 0" + endless),
+  for (const auto& rules : {row.rules("contact_bond", "kn: " + digits(kn) + ", ks: 0" + unbroken,
+                                      "kn: " + digits(kn * 1e-12) + ", ks: 0" + unbroken),
                             row.rules("parallel_bond", plain + digits(kn / area), plain + digits(kn * 1e-12 / area))}) {
     SceneRun run(row.head + rules + row.tail, row.balls);
     edit(run);
@@ -174,14 +164,10 @@ contacts:
 }
 
 TEST_CASE("D2 OK: a bond of 1e9 N/m beside a contact of 1e3 N/m on the same pair sets the step") {
-  const double area = std::numbers::pi * 1e-4;
-  SceneRun run(
-      "scree: 1\nballs:\n  pair: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n  - "
-      "{name: glue, between: [pair, pair], model: parallel_bond, kn: 1e3, ks: 0, fric: 0, pb_ks: 0, pb_ten: .inf, "
-      "pb_coh: .inf, pb_kn: " +
-          digits(1e9 / area) +
-          "}\nprocesses:\n  energy: {process: energy_ledger}\nstages:\n  - glue: [bond: {rule: glue, gap: 1e-6}]\n",
-      "x,y,z,radius,vx,vy,vz\n0,0,0,0.01,0.1,0,0\n0.02,0,0,0.01,-0.1,0,0\n");
+  SceneRun run(chain("model: parallel_bond, kn: 1e3, ks: 0, fric: 0, pb_ks: 0, pb_ten: .inf, pb_coh: .inf, pb_kn: " +
+                     digits(1e9 / area)) +
+                   "processes:\n  energy: {process: energy_ledger}\n",
+               "x,y,z,radius,vx,vy,vz\n0,0,0,0.01,0.1,0,0\n0.02,0,0,0.01,-0.1,0,0\n");
   edit(run);
   const double limit = 2 * std::sqrt(mass / 2 / (1e9 + 1e3));
   run.step(10);
