@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/contact/search_cost.hpp"
+
 namespace scree::core {
 
 namespace {
@@ -79,31 +81,38 @@ double nearest_image(double separation, const PeriodicCell& cell, int axis, uint
 // The image code turned around: what the pair's lower row must add is the opposite of what the higher one must.
 uint8_t opposite(uint8_t image) { return static_cast<uint8_t>(((image & 0x15u) << 1) | ((image & 0x2au) >> 1)); }
 
-void search_rows(const Balls& balls, const PeriodicCell& cell, double margin, const Levels& levels, std::size_t first,
-                 std::size_t last, Hits& hits) {
-  const double *x = balls[Column::x], *y = balls[Column::y], *z = balls[Column::z], *radius = balls[Column::radius];
+/// Calls f(row, point, other, own) for every ball that the rows look at; `own`: it is of the same level, where each
+/// pair comes up from both sides.
+template <class F>
+void each_candidate(const Balls& balls, const Levels& levels, std::size_t first, std::size_t last, F f) {
+  const double *x = balls[Column::x], *y = balls[Column::y], *z = balls[Column::z];
   for (std::size_t row = first; row < last; ++row) {
     const double point[3] = {x[row], y[row], z[row]};
-    const double reach = radius[row] + margin;
     for (std::size_t level = levels.of_row[row]; level < levels.grids.size(); ++level) {
       if (levels.grids[level].empty()) continue;
       const bool own = level == levels.of_row[row];
-      levels.grids[level].around(point, [&](uint32_t other) {
-        if (own && other <= row) return;
-        uint8_t image = 0;
-        const double dx = nearest_image(x[other] - point[0], cell, 0, image);
-        const double dy = nearest_image(y[other] - point[1], cell, 1, image);
-        const double dz = nearest_image(z[other] - point[2], cell, 2, image);
-        const double limit = reach + radius[other];
-        if (dx * dx + dy * dy + dz * dz >= limit * limit) return;
-        const auto me = static_cast<uint32_t>(row);
-        if (me < other)
-          hits.add(me, other, image);
-        else
-          hits.add(other, me, opposite(image));
-      });
+      levels.grids[level].around(point, [&](uint32_t other) { f(row, point, other, own); });
     }
   }
+}
+
+void search_rows(const Balls& balls, const PeriodicCell& cell, double margin, const Levels& levels, std::size_t first,
+                 std::size_t last, Hits& hits) {
+  const double *x = balls[Column::x], *y = balls[Column::y], *z = balls[Column::z], *radius = balls[Column::radius];
+  each_candidate(balls, levels, first, last, [&](std::size_t row, const double* point, uint32_t other, bool own) {
+    if (own && other <= row) return;
+    uint8_t image = 0;
+    const double dx = nearest_image(x[other] - point[0], cell, 0, image);
+    const double dy = nearest_image(y[other] - point[1], cell, 1, image);
+    const double dz = nearest_image(z[other] - point[2], cell, 2, image);
+    const double limit = radius[row] + margin + radius[other];
+    if (dx * dx + dy * dy + dz * dz >= limit * limit) return;
+    const auto me = static_cast<uint32_t>(row);
+    if (me < other)
+      hits.add(me, other, image);
+    else
+      hits.add(other, me, opposite(image));
+  });
 }
 
 PairTable by_row(std::vector<Hits> hits, std::size_t rows) {
@@ -244,6 +253,14 @@ PairTable find_pairs(const Balls& balls, const PeriodicCell& cell, double margin
     for (std::size_t row = p * part; row < std::min(n, (p + 1) * part); ++row) sort_row(table, row);
   });
   return table;
+}
+
+uint64_t candidates(const Balls& balls, const PeriodicCell& cell, double margin) {
+  uint64_t count = 0;
+  if (balls.size() > 0)
+    each_candidate(balls, make_levels(balls, cell, margin), 0, balls.size(),
+                   [&](std::size_t, const double*, uint32_t, bool) { ++count; });
+  return count;
 }
 
 std::vector<uint32_t> spatial_order(const Balls& balls, double edge) {

@@ -6,6 +6,7 @@
 #include "core/base/crash_note.hpp"
 #include "core/contact/network_bound.hpp"
 #include "core/contact/possible_pairs.hpp"
+#include "core/cycle/impact_share.hpp"
 
 namespace scree::core {
 
@@ -195,7 +196,20 @@ double Engine::exact_travel() {
 
 void Engine::detect() {
   if (!contacts.built()) return rebuild();
-  const auto used_up = [&] { return std::max(2 * ball_travel_, ball_travel_ + wall_travel_) > skin_.width(); };
+  // Where pieces may come so far in the coming cycle that a contact would be born deep, they must be listed when its
+  // step is chosen: lists are then rebuilt a cycle ahead.
+  double balls_come = 0, walls_come = 0;
+  // After an edit what the last motion saw is out of date.
+  for (const MotionResult& result : motion_) balls_come = std::max(balls_come, result.fastest);
+  if (motion_.empty() || clock.dt_back == 0) balls_come = fastest_ball();
+  balls_come *= clock.dt;
+  for (const Wall& wall : walls) walls_come = std::max(walls_come, wall.travel(clock.dt, extent_));
+  const bool far = step.automatic() && balls_come + std::max(balls_come, walls_come) > birth_depth * least_radius_;
+  if (!far) balls_come = walls_come = 0;
+  const auto used_up = [&] {
+    const double ball = ball_travel_ + balls_come, wall = wall_travel_ + walls_come;
+    return ball + std::max(ball, wall) > skin_.width();
+  };
   if (used_up()) {
     ball_travel_ = exact_travel();
     if (used_up()) {

@@ -12,9 +12,8 @@ namespace scree::core {
 
 namespace {
 
-constexpr double birth_depth = 0.05;  ///< of the smaller radius, in one cycle
-constexpr double travel = 0.4;        ///< of its own radius, by a ball in one cycle
-constexpr double few_contacts = 2;    ///< per ball: below, collisions are what happens
+constexpr double travel = 0.4;      ///< of its own radius, by a ball in one cycle
+constexpr double few_contacts = 2;  ///< per ball: below, collisions are what happens
 
 }  // namespace
 
@@ -38,7 +37,13 @@ StepBound Engine::flight() const {
     at = row;
   }
   if (!(most > 0)) return {};
-  return {travel / std::sqrt(most), balls.id()[at], 0, "", "kinematic", false};
+  // Lists that are rebuilt a cycle ahead show what two such balls may meet only within the skin.
+  return {std::min(travel / std::sqrt(most), 0.5 * skin_.width() / fastest_ball()),
+          balls.id()[at],
+          0,
+          "",
+          "kinematic",
+          false};
 }
 
 StepBound Engine::estimate() {

@@ -6,4 +6,7 @@ namespace scree::core {
 /// accurate`.
 inline constexpr double impact_share = 0.3, accurate_share = 0.1;
 
+/// Of the smaller radius: as far a pair may close in one cycle, so that no contact is born deeper.
+inline constexpr double birth_depth = 0.05;
+
 }  // namespace scree::core

@@ -10,6 +10,9 @@ namespace {
 // follows from the cycles since the last one.
 constexpr double base_cost = 6, sweep_cost = 2, share = 0.03;
 constexpr unsigned most_sweeps = 20;
+/// Of the least radius: margin of what does not move. Laws that stiffen are taken as much deeper than they are, and the
+/// overlaps of Hertz contacts under a pascal are a ten-millionth of the radius.
+constexpr double least_margin = 1e-9;
 
 }  // namespace
 
@@ -27,7 +30,7 @@ NetworkQuery StepSchedule::plan(uint64_t cycle, const Motion& motion) {
   }
   // Long enough for the sweeps to pay, and narrow where that is cheap; never beyond what is listed.
   const double wanted = std::max(200 * motion.closing, std::min(1000 * motion.closing, 0.02 * motion.radius));
-  margin_ = std::min(motion.skin_left, std::max(1e-4 * motion.radius, wanted));
+  margin_ = std::min(motion.skin_left, std::max(least_margin * motion.radius, wanted));
   query.links.margin = margin_;
   balls_ = walls_ = 0;
   last_ = cycle;

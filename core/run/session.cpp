@@ -9,6 +9,7 @@
 #include "core/run/expectation.hpp"
 #include "core/run/sanity.hpp"
 #include "core/run/signals.hpp"
+#include "core/run/slow_swing.hpp"
 #include "core/run/state.hpp"
 
 namespace scree::core {
@@ -124,12 +125,14 @@ Session::Ending Session::run_action(const Stage& stage, const RunAction& action)
   const uint64_t first = engine.clock.cycle;
   Ending ending = Ending::done;
   uint64_t look = 0;
+  bool begins = true;
   for (;;) {
     const bool over = length_reached(action), test = condition.due();
     const bool cut = options_.cycles && engine.clock.cycle >= first_cycle_ + *options_.cycles;
     const bool first_look = std::exchange(unseen_, false);
     complete(over || test || cut || first_look ? final_needs_ | condition.needs() : Needs());
     if (first_look) report_overlaps();
+    if (std::exchange(begins, false)) report_slow_bonds();
     if (test && condition.met()) break;
     if (over) break;
     if (cut) {
@@ -203,6 +206,17 @@ void Session::report_overlaps() {
         "balls overlap by up to {:.3g} of the smaller radius at cycle {}: the contacts are too soft, or balls were "
         "placed into each other",
         most, engine.clock.cycle);
+}
+
+// Before a run that begins with more bonds than the last one.
+void Session::report_slow_bonds() {
+  Engine& engine = simulation_->engine;
+  const uint64_t bonded = engine.contacts.bonded();
+  if (bonded > bonds_) {
+    const Watchdog::Section watched(*watchdog_, engine.clock.cycle);
+    if (const std::string doubt = slow_bonds(engine); !doubt.empty()) log::warning("{}", doubt);
+  }
+  bonds_ = bonded;
 }
 
 void Session::read_quantities() {

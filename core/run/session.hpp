@@ -46,6 +46,7 @@ class Session {
   bool save_checkpoint();
   void save_named(const SaveAction& action);
   void report_overlaps();
+  void report_slow_bonds();
   void write_failure(const NumericalStop& stop);
   void save_stopped(const NumericalStop& stop);
   /// A cycle does not end: says so, closes what is written, and ends the process. On the watchdog's thread.
@@ -73,6 +74,7 @@ class Session {
   std::vector<ExpectationResult> expectations_;
   Summary::Named values_;
   std::optional<Summary::Energy> energy_;
+  uint64_t bonds_ = 0;  ///< that held when the last run action began
   bool io_failed_ = false;
   bool unseen_ = true;  ///< no cycle of this session was completed yet
 };

@@ -11,21 +11,19 @@
 #include "core/run/summary.hpp"
 #include "outside.hpp"
 #include "packing.hpp"
+#include "sizes.hpp"
 
 // scree_bench            ns per ball-step of the dense packing, all sizes, with and without friction, threads and ISA
 // scree_bench quick      the smallest size only
 // scree_bench memory N   peak memory of one packing of N balls, for the slope between two sizes
 // scree_bench outside COPY DIR [LIMIT]   the law `linear` and its copy of that name in the plug-in folder DIR, in turns
+// scree_bench sizes      a layer of balls on one 100 times as large beside equal balls, in turns
 // Friction and no friction are run in turn and their ratio is the median over the rounds: the machine's mood cancels.
 
 namespace {
 
+using scree::bench::median;
 using scree::bench::Setting;
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 void line(const Setting& setting, scree::core::Catalogue& catalogue) {
   Setting smooth = setting;
@@ -70,6 +68,10 @@ int main(int count, char** words) {
     double value = 1.03;
     std::from_chars(limit, limit + std::strlen(limit), value);
     return scree::bench::compare_laws("linear", words[2], value, with_copy);
+  }
+  if (what == "sizes") {
+    scree::bench::compare_sizes(catalogue);
+    return 0;
   }
   if (what == "memory" && count > 2) return memory(std::strtoull(words[2], nullptr, 10), catalogue);
   std::printf("dense packing, linear contacts; ns per ball-step (median of 5 rounds), list rebuilds included\n");

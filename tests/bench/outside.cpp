@@ -1,6 +1,5 @@
 #include "outside.hpp"
 
-#include <algorithm>
 #include <cstdio>
 #include <ctime>
 #include <vector>
@@ -11,11 +10,6 @@
 namespace scree::bench {
 
 namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 /// ns of processor time per ball-step: other programs on the machine count less than in time by the clock on the wall.
 double spent(core::Simulation& simulation, std::size_t cycles) {

@@ -114,4 +114,9 @@ double measure(core::Simulation& simulation, std::size_t cycles) {
   return seconds * 1e9 / static_cast<double>(cycles) / static_cast<double>(simulation.engine.balls.size());
 }
 
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 }  // namespace scree::bench

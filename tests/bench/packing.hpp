@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/run/simulation.hpp"
 
@@ -24,5 +25,7 @@ std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Ca
 /// ns per ball-step over the given number of cycles, list rebuilds included: processor time on one thread, so that
 /// other load on the machine does not count, elapsed time on several.
 double measure(core::Simulation& simulation, std::size_t cycles);
+
+double median(std::vector<double> values);
 
 }  // namespace scree::bench

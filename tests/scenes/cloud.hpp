@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -25,7 +27,64 @@ struct Cloud {
   double timestep = 0;                  ///< s, 0: automatic
   double damping = 0.2;                 ///< share of critical, normal, between balls
   int dp_mode = 2;                      ///< between balls
+  double bonds = 0;                     ///< Pa, strength of parallel bonds between grains; 0: none
 };
+using Matrix = std::array<Cloud::Vector, 3>;
+
+inline double distance(const Cloud::Vector& a, const Cloud::Vector& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+inline Cloud::Vector times(const Cloud::Vector& v, double s) { return {s * v[0], s * v[1], s * v[2]}; }
+
+inline Cloud::Vector turned(const Matrix& m, const Cloud::Vector& v) {
+  Cloud::Vector out{};
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (m[r][c] != 0) out[r] += m[r][c] * v[c];  // exact for signed permutations
+  return out;
+}
+
+/// Spins are axial vectors: a mirror also reverses them.
+inline Cloud turned(const Matrix& m, double determinant, Cloud cloud) {
+  for (Cloud::Body& body : cloud.bodies) {
+    body.position = turned(m, body.position);
+    body.velocity = turned(m, body.velocity);
+    body.spin = times(turned(m, body.spin), determinant);
+  }
+  for (Cloud::Plane& plane : cloud.planes) plane = {turned(m, plane.point), turned(m, plane.normal), {}};
+  cloud.gravity = turned(m, cloud.gravity);
+  return cloud;
+}
+
+/// All balls in the order of their ids, from 1.
+inline std::vector<support::BallState> states(support::SceneRun& run) {
+  std::vector<support::BallState> all;
+  for (uint64_t id = 1; id <= run.engine().balls.size(); ++id) all.push_back(run.ball(id));
+  return all;
+}
+
+/// Signed permutations of the axes with the given determinant: 24 turns or 24 mirror images of the cube.
+inline std::vector<Matrix> cube_symmetries(double determinant) {
+  std::vector<Matrix> all;
+  std::array<std::size_t, 3> order{0, 1, 2};
+  double parity[] = {1, -1, -1, 1, 1, -1};  // of the permutations in lexicographic order
+  std::size_t k = 0;
+  do {
+    for (unsigned signs = 0; signs < 8; ++signs) {
+      Matrix m{};
+      double product = parity[k];
+      for (std::size_t r = 0; r < 3; ++r) {
+        const double sign = (signs >> r & 1u) != 0 ? -1 : 1;
+        m[r][order[r]] = sign;
+        product *= sign;
+      }
+      if (product == determinant) all.push_back(m);
+    }
+    ++k;
+  } while (std::next_permutation(order.begin(), order.end()));
+  return all;
+}
 
 inline std::string text_of(const Cloud::Vector& v, const char* between = ", ") {
   return support::digits(v[0]) + between + support::digits(v[1]) + between + support::digits(v[2]);
@@ -52,13 +111,17 @@ inline std::string scene_of(const Cloud& cloud) {
             text_of(cloud.planes[k].point) + "], normal: [" + text_of(cloud.planes[k].normal) + "], velocity: [" +
             text_of(cloud.planes[k].velocity) + "]}\n";
   text += "balls:\n  grains: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n";
-  text += "  - {between: [grains, grains], model: linear, " + springs +
+  const std::string cement = ", pb_kn: 1e8, pb_ks: 4e7, pb_ten: " + digits(cloud.bonds) +
+                             ", pb_coh: " + digits(cloud.bonds) + ", pb_fa: 30 deg";
+  text += "  - {name: grains, between: [grains, grains], model: " +
+          (cloud.bonds > 0 ? "parallel_bond, " + springs + cement : "linear, " + springs) +
           ", fric: 0.4, dp_nratio: " + digits(cloud.damping) +
           ", dp_sratio: 0.1, dp_mode: " + std::to_string(cloud.dp_mode) + "}\n";
   if (!cloud.planes.empty())
     text +=
         "  - {between: [grains, walls], model: linear, " + springs + ", fric: 0.3, dp_nratio: 0.1, dp_sratio: 0.2}\n";
   text += "processes:\n  gravity: {process: gravity, acceleration: [" + text_of(cloud.gravity) + "]}\n";
+  if (cloud.bonds > 0) text += "stages:\n  - glue: [bond: {rule: grains, gap: 0.5 mm}]\n";
   return text;
 }
 

@@ -1,7 +1,6 @@
 // The laws know no preferred axis, hand, numbering, rest frame or unit: a cloud of 60 colliding balls in a box, with
 // friction, dashpots and gravity, must move alike when it is turned, mirrored, renumbered, set in motion or rescaled.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,68 +11,14 @@ using namespace support;
 namespace {
 
 using Vector = Cloud::Vector;
-using Matrix = std::array<Vector, 3>;
 
 constexpr double box = 0.1;  ///< m, to which differences of positions are compared
-
-/// All balls in the order of ids 1 to 60.
-std::vector<BallState> states(SceneRun& run) {
-  std::vector<BallState> all;
-  for (uint64_t id = 1; id <= run.engine().balls.size(); ++id) all.push_back(run.ball(id));
-  return all;
-}
 
 std::vector<BallState> after(const Cloud& cloud, uint64_t cycles) {
   SceneRun run(scene_of(cloud), balls_of(cloud));
   run.step(cycles);
   return states(run);
 }
-
-Vector turned(const Matrix& m, const Vector& v) {
-  Vector out{};
-  for (std::size_t r = 0; r < 3; ++r)
-    for (std::size_t c = 0; c < 3; ++c)
-      if (m[r][c] != 0) out[r] = m[r][c] * v[c];  // signed permutations: exact
-  return out;
-}
-
-Vector times(const Vector& v, double s) { return {s * v[0], s * v[1], s * v[2]}; }
-
-/// Spins are axial vectors: a mirror also reverses them.
-Cloud turned(const Matrix& m, double determinant, Cloud cloud) {
-  for (Cloud::Body& body : cloud.bodies) {
-    body.position = turned(m, body.position);
-    body.velocity = turned(m, body.velocity);
-    body.spin = times(turned(m, body.spin), determinant);
-  }
-  for (Cloud::Plane& plane : cloud.planes) plane = {turned(m, plane.point), turned(m, plane.normal), {}};
-  cloud.gravity = turned(m, cloud.gravity);
-  return cloud;
-}
-
-/// Signed permutations of the axes with the given determinant.
-std::vector<Matrix> cube_symmetries(double determinant) {
-  std::vector<Matrix> all;
-  std::array<std::size_t, 3> order{0, 1, 2};
-  double parity[] = {1, -1, -1, 1, 1, -1};  // of the permutations in lexicographic order
-  std::size_t k = 0;
-  do {
-    for (unsigned signs = 0; signs < 8; ++signs) {
-      Matrix m{};
-      double product = parity[k];
-      for (std::size_t r = 0; r < 3; ++r) {
-        const double sign = (signs >> r & 1u) != 0 ? -1 : 1;
-        m[r][order[r]] = sign;
-        product *= sign;
-      }
-      if (product == determinant) all.push_back(m);
-    }
-    ++k;
-  } while (std::next_permutation(order.begin(), order.end()));
-  return all;
-}
-
-double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 double worst_turned(const Cloud& cloud, double determinant, uint64_t cycles, std::size_t count) {
   const std::vector<BallState> plain = after(cloud, cycles);

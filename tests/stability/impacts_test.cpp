@@ -191,6 +191,34 @@ TEST_CASE("18 OK: 1000 first touches under the automatic step, from all phases o
                           ", mean gain of energy " + lab::number(energy - 1));
 }
 
+TEST_CASE("18 OK: a ball that comes from afar is seen in time, at all phases of the lists") {
+  // A Hertz ball alone flies in steps far longer than its impact may take; the floor is listed when it is within the
+  // skin, 0.2 R. Starts over two skins, so that it is first listed at any distance and first touches at any depth.
+  double worst = 0, deepest = 0;
+  for (int k = 0; k < 100; ++k) {
+    const double height = 0.05 + 0.004 * k / 100, speed = 1.4;
+    SceneRun run(
+        "scree: 1\nwalls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nballs:\n  ball: {generator: "
+        "file, path: balls.csv, density: 2500}\ncontacts:\n  - {name: ground, between: [ball, [floor, ball]], model: "
+        "hertz_mindlin, shear: 1e8, poiss: 0.25, fric: 0, dp_nratio: 0}\n",
+        "x,y,z,radius,vx,vy,vz\n0,0," + digits(height) + ",0.01,0,0," + digits(-speed) + "\n");
+    const auto& balls = run.engine().balls;
+    double born = 0;
+    for (int cycle = 0; cycle < 20000 && balls[Column::vz][0] < 0.5 * speed; ++cycle) {
+      run.step();
+      if (born == 0) born = std::max(0.0, 0.01 - balls[Column::z][0]);
+    }
+    run.step(20);
+    INFO("from " << height << " m, first touch " << born / 0.01 << " R deep");
+    CHECK(born < 0.05 * 0.01);
+    worst = std::max(worst, std::abs(balls[Column::vz][0] / speed - 1));
+    deepest = std::max(deepest, born / 0.01);
+  }
+  CHECK(worst < 0.05);
+  lab::measured("18, afar", "100 phases of the lists: first touch at most " + lab::number(deepest) +
+                                " R deep, worst speed error " + lab::number(worst));
+}
+
 TEST_CASE("D8 STOP: balls that overlap by nine tenths of their diameter") {
   const TemporaryFolder folder;
   write_text(folder / "balls.csv", "x,y,z,radius\n0,0,0,1e-3\n0.2e-3,0,0,1e-3\n");

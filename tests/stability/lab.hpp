@@ -13,10 +13,11 @@
 
 namespace lab {
 
-/// The plug-ins of this build and a folder for scenes. `make` sets a scene up; nothing has moved yet.
+/// The plug-ins of this build, those of the tests that are wrong on purpose, and a folder for scenes. `make` sets a
+/// scene up; nothing has moved yet.
 class Lab {
  public:
-  Lab() : catalogue_(scree::core::SearchPath{{support::plugin_dir()}, {}}) {}
+  Lab() : catalogue_(scree::core::SearchPath{{support::plugin_dir(), support::binary_dir() + "/tests/hostile"}, {}}) {}
   scree::core::Catalogue& catalogue() { return catalogue_; }
   const TemporaryFolder& folder() const { return folder_; }
 
@@ -31,6 +32,11 @@ class Lab {
     simulation->set_up();
     simulation->prepare();
     return simulation;
+  }
+  /// The same with `balls` as balls.csv beside the scene.
+  std::unique_ptr<scree::core::Simulation> make(const std::string& text, const std::string& balls) {
+    write_text(folder_ / "balls.csv", balls);
+    return make(text);
   }
 
  private:

@@ -1,4 +1,4 @@
-// Cases 30, 32, 33: energy and momentum over many impacts and turns.
+// Cases 29, 30, 32 to 34: spin, energy and momentum over many cycles, impacts and turns.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,22 +18,33 @@ const double mass = 2500 * 4.0 / 3 * std::numbers::pi * 1e-6;  // of 10 mm
 struct Bounced {
   double last = 0, worst = 0;  ///< relative change
   uint64_t cycles = 0;
+  double least = 0, most = 0;  ///< steps in contact, s
 };
 
-Bounced bounce(int bounces) {
-  // From a tenth of the radius under 10 000 g: 14 m/s, contact time 2.9432 d/v.
-  const double g = 98100, height = 0.001, v = std::sqrt(2 * g * height), shear = 1e9, nu = 0.25;
-  const double h = 4.0 / 3 * shear / (1 - nu) * 0.1, deepest = std::pow(1.25 * mass * v * v / h, 0.4);
-  // A fiftieth of 2/w at the deepest point.
-  const double dt = 0.02 * 2 * std::sqrt(mass / (1.5 * h * std::sqrt(deepest)));
-  SceneRun run(
-      "scree: 1\ntimestep: " + digits(dt) + "\n" +
-          "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nballs:\n  ball: {generator: file, "
-          "path: balls.csv, density: 2500}\ncontacts:\n  - {name: ground, between: [ball, [floor, ball]], model: "
-          "hertz_mindlin, shear: 1e9, poiss: 0.25, fric: 0, dp_nratio: 0}\nprocesses:\n  pull: {process: gravity, "
-          "acceleration: "
-          "[0, 0, -98100]}\n",
-      "x,y,z,radius\n0,0," + digits(0.01 + height) + ",0.01\n");
+/// A ball of 10 mm that falls onto a floor.
+struct Fall {
+  double g, height, shear;
+  /// 2/w at the deepest point of the first impact: m v^2/2 = 2/5 h d^2.5 with h = 4/3 G/(1 - nu) sqrt(R).
+  double limit() const {
+    const double v = std::sqrt(2 * g * height), h = 4.0 / 3 * shear / (1 - 0.25) * 0.1,
+                 deepest = std::pow(1.25 * mass * v * v / h, 0.4);
+    return 2 * std::sqrt(mass / (1.5 * h * std::sqrt(deepest)));
+  }
+  std::string scene(const std::string& timestep) const {
+    return "scree: 1\n" + timestep +
+           "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\nballs:\n  ball: {generator: file, "
+           "path: balls.csv, density: 2500}\ncontacts:\n  - {name: ground, between: [ball, [floor, ball]], model: "
+           "hertz_mindlin, shear: " +
+           digits(shear) +
+           ", poiss: 0.25, fric: 0, dp_nratio: 0}\nprocesses:\n  pull: {process: gravity, "
+           "acceleration: [0, 0, " +
+           digits(-g) + "]}\n";
+  }
+  std::string ball() const { return "x,y,z,radius\n0,0," + digits(0.01 + height) + ",0.01\n"; }
+};
+
+Bounced bounce(const Fall& fall, int bounces, const std::string& timestep) {
+  SceneRun run(fall.scene(timestep), fall.ball());
   run.engine().sums_wanted = run.engine().report_wanted = false;
   const auto& balls = run.engine().balls;
   Bounced out;
@@ -41,11 +52,15 @@ Bounced bounce(int bounces) {
   for (int done = -1; done < bounces;) {
     run.step();
     ++out.cycles;
-    const double now = balls[Column::vz][0];
-    if (before > 0 && now <= 0 && balls[Column::z][0] > 0.01) {
+    const double now = balls[Column::vz][0], z = balls[Column::z][0], dt = run.engine().clock.dt_back;
+    if (z < 0.01) {
+      out.most = std::max(out.most, dt);
+      out.least = out.least == 0 ? dt : std::min(out.least, dt);
+    }
+    if (before > 0 && now <= 0 && z > 0.01) {
       // v(n) lies half a kick after v(n-1/2); in free flight g z(n) + v(n)^2/2 is kept exactly.
-      const double v_top = now - 0.5 * g * run.engine().clock.dt_back;
-      const double energy = g * (balls[Column::z][0] - 0.01) + v_top * v_top / 2;
+      const double v_top = now - 0.5 * fall.g * dt;
+      const double energy = fall.g * (z - 0.01) + v_top * v_top / 2;
       if (done < 0) start = energy;
       out.last = energy / start - 1;
       out.worst = std::max(out.worst, std::abs(out.last));
@@ -56,12 +71,53 @@ Bounced bounce(int bounces) {
   return out;
 }
 
+std::string given(double step) { return "timestep: " + digits(step) + "\n"; }
+
+std::string text(const Bounced& b) {
+  return "energy within " + lab::number(b.worst) + ", at the end " + lab::number(b.last) + ", in " +
+         std::to_string(b.cycles) + " cycles";
+}
+
+/// From a tenth of its radius under 10 000 g, at a fiftieth of 2/w at the deepest point.
 void bounces(int count, const std::string& name) {
-  const Bounced fixed = bounce(count);
+  const Fall fall{98100, 0.001, 1e9};
+  const Bounced fixed = bounce(fall, count, given(0.02 * fall.limit()));
   CHECK(fixed.worst < 2e-3);
-  lab::measured(name, std::to_string(count) + " bounces in " + std::to_string(fixed.cycles) +
-                          " cycles: energy within " + lab::number(fixed.worst) + ", at the end " +
-                          lab::number(fixed.last));
+  lab::measured(name, std::to_string(count) + " bounces: " + text(fixed));
+}
+
+/// From four radii under 10 g: a flight is long enough for the automatic step to rise, and each impact lowers it again.
+void controlled(int count, const std::string& name) {
+  const Fall fall{98.1, 0.04, 1e8};
+  for (const std::string head : {"", "timestep: accurate\n"}) {
+    const Bounced automatic = bounce(fall, count, head), fixed = bounce(fall, count, given(automatic.most));
+    const std::string share =
+        lab::number(automatic.least / fall.limit()) + " to " + lab::number(automatic.most / fall.limit());
+    INFO(head << " " << share << " of the limit: " << text(automatic) << "; fixed: " << text(fixed));
+    CHECK(automatic.worst < 2 * fixed.worst);
+    lab::measured(name + (head.empty() ? "" : " accurate"), std::to_string(count) + " bounces at " + share +
+                                                                " of the limit: " + text(automatic) +
+                                                                "; fixed: " + text(fixed));
+  }
+}
+
+/// A ball that spins at 1e6 rad/s beside two that collide with friction, under gravity and local damping.
+void spin(uint64_t cycles, const std::string& name) {
+  SceneRun run(
+      "scree: 1\ntimestep: 1e-6\nballs:\n  all: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n  - "
+      "{name: all, between: [all, all], model: linear, kn: 1e5, ks: 5e4, fric: 0.5}\nprocesses:\n  pull: {process: "
+      "gravity, acceleration: [0, 0, -1e-3]}\n  damping: {process: local_damping, factor: 0.1}\n",
+      "id,x,y,z,radius,vx,vy,vz,wx,wy,wz\n1,0,0,0,0.01,0,0,0,6e5,-8e5,1e-3\n2,1,0,0,0.01,0.1,0,0,0,0,5\n"
+      "3,1.021,0.001,0,0.01,0,0,0,0,0,0\n");
+  run.engine().sums_wanted = run.engine().report_wanted = false;
+  run.step(cycles);
+  const BallState fast = run.ball(1), met = run.ball(3);
+  CHECK(fast.spin[0] == 6e5);
+  CHECK(fast.spin[1] == -8e5);
+  CHECK(fast.spin[2] == 1e-3);
+  CHECK(fast.position[2] < 0);
+  CHECK(met.spin[2] != 0);
+  lab::measured(name, lab::number(static_cast<double>(cycles)) + " cycles: every bit of the spin is kept");
 }
 
 /// Five balls in a row between two walls, the first one moving: elastic, at 0.02 of the limit of a pair.
@@ -146,6 +202,12 @@ void orbit(uint64_t cycles, const std::string& name) {
 
 TEST_CASE("33 OK: a Hertz ball keeps its energy over 300 bounces") { bounces(300, "33"); }
 TEST_CASE("33 OK: the same over 1e4 bounces", "[.][verify]") { bounces(10000, "33 verify"); }
+TEST_CASE("34 OK: under the automatic step it drifts no more than twice as far as at a fixed one") {
+  controlled(300, "34");
+}
+TEST_CASE("34 OK: the same over 1e4 bounces", "[.][verify]") { controlled(10000, "34 verify"); }
+TEST_CASE("29 OK: a ball that spins at 1e6 rad/s keeps every bit of its spin for 1e6 cycles") { spin(1000000, "29"); }
+TEST_CASE("29 OK: the same for 1e8 cycles", "[.][verify]") { spin(100000000, "29 verify"); }
 TEST_CASE("32 OK: a cradle of five keeps its energy over 1000 impacts") { cradle(1000, "32"); }
 TEST_CASE("32 OK: the same over 1e4 impacts", "[.][verify]") { cradle(10000, "32 verify"); }
 TEST_CASE("30 OK: a bonded pair turns for 1e5 cycles without drift") { orbit(100000, "30, pair"); }

@@ -12,26 +12,6 @@ namespace {
 constexpr double density = 2500, radius = 0.01;
 const double mass = density * 4.0 / 3 * 3.14159265358979323846 * radius * radius * radius;
 
-/// Plug-ins of the build and those of the tests.
-class Workshop {
- public:
-  Workshop() : catalogue_(SearchPath{{support::plugin_dir(), support::binary_dir() + "/tests/hostile"}, {}}) {}
-  std::unique_ptr<Simulation> make(const std::string& text, const std::string& balls) {
-    write_text(folder_ / "balls.csv", balls);
-    write_text(folder_ / "scene.yaml", text);
-    ReadOptions options;
-    options.file = folder_ / "scene.yaml";
-    auto simulation = std::make_unique<Simulation>(read_scene(options, catalogue_), catalogue_, 1, 0);
-    simulation->set_up();
-    simulation->prepare();
-    return simulation;
-  }
-
- private:
-  TemporaryFolder folder_;
-  Catalogue catalogue_;
-};
-
 std::string scene(const std::string& law, const std::string& head = "", const std::string& more = "") {
   return "scree: 1\n" + head + "balls:\n  all: {generator: file, path: balls.csv, density: 2500}\n" +
          "contacts:\n  - {name: all, between: [balls, balls], " + law + "}\n" + more + "stages:\n  - go: [cycle: 1]\n";
@@ -74,7 +54,7 @@ std::string clamped(int count, const std::string& head, const std::string& more 
 }  // namespace
 
 TEST_CASE("step STOP: beyond the limit the apparent frequency stops a run, below it never") {
-  Workshop here;
+  lab::Lab here;
   const double limit = std::sqrt(mass / 1e5);  // of a long row
   for (const double share : {0.9, 0.99, 1.02, 1.1}) {
     INFO("step over the limit " << share);
@@ -95,7 +75,7 @@ TEST_CASE("step STOP: beyond the limit the apparent frequency stops a run, below
 }
 
 TEST_CASE("54 STOP: a law that reports a tenth of its stiffness is found out and named") {
-  Workshop here;
+  lab::Lab here;
   for (const auto& [share, found] : {std::pair{1.0, 0}, {0.95, 0}, {0.7, 1}, {0.1, 2}}) {
     INFO("reported share " << share);
     const auto simulation =
@@ -115,7 +95,7 @@ TEST_CASE("54 STOP: a law that reports a tenth of its stiffness is found out and
 }
 
 TEST_CASE("step OK: a collision sets the step by the pair's own frequency at its peak") {
-  Workshop here;
+  lab::Lab here;
   const auto used = [&](const std::string& law, double speed, const std::string& head = "") {
     const auto simulation = here.make(scene(law, head), meeting(speed));
     simulation->engine.forces();
@@ -139,7 +119,7 @@ TEST_CASE("step OK: a collision sets the step by the pair's own frequency at its
 }
 
 TEST_CASE("15 OK: a Hertz collision under the automatic step keeps its energy, from 1e-4 to 1 m/s") {
-  Workshop here;
+  lab::Lab here;
   double worst = 0;
   for (const double speed : {1e-4, 1e-2, 1.0})
     for (const std::string head : {"", "timestep: accurate\n"}) {
@@ -157,7 +137,7 @@ TEST_CASE("15 OK: a Hertz collision under the automatic step keeps its energy, f
 }
 
 TEST_CASE("step OK: no contact is born deeper than a twentieth of the radius") {
-  Workshop here;
+  lab::Lab here;
   // Soft and fast: the pair's own limit would let it in at once.
   const auto simulation = here.make(scene("model: linear, kn: 1, ks: 0"), meeting(5));
   simulation->engine.forces();
@@ -169,7 +149,7 @@ TEST_CASE("step OK: no contact is born deeper than a twentieth of the radius") {
 namespace {
 
 void stay_bounded(int parts) {
-  Workshop here;
+  lab::Lab here;
   for (const int balls : {2, 30}) {
     const auto simulation =
         here.make(clamped(balls, "", "processes:\n  damping: {process: local_damping, factor: 0.7}\n"),
@@ -195,7 +175,7 @@ TEST_CASE("8 OK: a pair and a row along (1,1,1) with local damping 0.7 stay boun
 TEST_CASE("8 OK: the same for 1e6 cycles", "[.][verify]") { stay_bounded(10000); }
 
 TEST_CASE("41 REJECT: a step of 0, no number, or far too long is refused with its place") {
-  Workshop here;
+  lab::Lab here;
   for (const std::string step : {"0", "-1e-6", ".nan", "nan", ".inf", "1e30"}) {
     INFO("timestep " << step);
     std::string said;

@@ -1,27 +1,18 @@
-// Cases 1 to 6, D1 to D3, D5, D7: very unequal stiffnesses, masses and sizes side by side.
+// Cases 1 to 4, D1 to D3, D7: very unequal stiffnesses and masses side by side.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/base/philox.hpp"
 #include "core/run/sanity.hpp"
+#include "stability/bonded_scene.hpp"
 #include "stability/lab.hpp"
-#include "support/measure.hpp"
-#include "support/scene_run.hpp"
 
+using namespace bonded;
 using namespace support;
 using scree::core::Column;
 
 namespace {
-
-constexpr double kn = 1e6;
-const double mass = 2500 * 4.0 / 3 * std::numbers::pi * 1e-6;  // of 10 mm
-
-/// The actions of the first stage that are no run.
-void edit(SceneRun& run) {
-  for (const auto& action : run.simulation().scene.stages.at(0).actions) run.simulation().edit(action);
-  run.engine().forces();
-}
 
 /// Sixteen balls of 10 mm in a periodic row, a a b b a a b b ..., bonded: a-a is `ratio` times as stiff as a-b.
 struct Row {
@@ -59,12 +50,11 @@ Held hold(SceneRun& run, double critical) {
 
 TEST_CASE("1 3 OK: bonded neighbours whose stiffness differs 1e12 times stay bounded and keep their energy") {
   const Row row;
-  const std::string endless = ", fric: 0, cb_tenf: .inf, cb_shearf: .inf",
+  const std::string unbroken = ", fric: 0, " + endless,
                     plain = "kn: 0, ks: 0, fric: 0, pb_ks: 0, pb_ten: .inf, pb_coh: .inf, pb_kn: ";
-  const double area = std::numbers::pi * 1e-4;
   std::string said;
-  for (const auto& rules : {row.rules("contact_bond", "kn: " + digits(kn) + ", ks: 0" + endless,
-                                      "kn: " + digits(kn * 1e-12) + ", ks: 0" + endless),
+  for (const auto& rules : {row.rules("contact_bond", "kn: " + digits(kn) + ", ks: 0" + unbroken,
+                                      "kn: " + digits(kn * 1e-12) + ", ks: 0" + unbroken),
                             row.rules("parallel_bond", plain + digits(kn / area), plain + digits(kn * 1e-12 / area))}) {
     SceneRun run(row.head + rules + row.tail, row.balls);
     edit(run);
@@ -105,7 +95,8 @@ TEST_CASE("2 4 OK: a floor 1e12 times as stiff as the balls on it, linear and He
         "x,y,z,radius,vx,vy,vz\n0,0," + digits(0.01 - law.lower) + ",0.01,0,0,0\n0,0," +
             digits(0.03 - law.lower - law.upper) + ",0.01,0,0,-1e-3\n");
     const Held held = hold(run, 2 * std::sqrt(mass / law.tangent));
-    // A Hertz contact of 3e-11 m is taken at the stiffness that it would have 1e-6 m deeper.
+    // A Hertz contact of 3e-11 m is taken at the stiffness that it would have 1e-7 m deeper, which 200 cycles of the
+    // push may close.
     CHECK(held.share >= (law.tangent == 1e14 ? 0.6 : 0.05));
     CHECK(held.share <= 0.95);
     CHECK(held.residual < 1e-3);
@@ -113,43 +104,6 @@ TEST_CASE("2 4 OK: a floor 1e12 times as stiff as the balls on it, linear and He
     said += "step " + lab::number(held.share) + " of the critical one, residual " + lab::number(held.residual) + "; ";
   }
   lab::measured("2, 4", said);
-}
-
-TEST_CASE("5 6 D5 OK: small balls on one 10, 1000 and 1e4 times as large: every contact is found") {
-  std::string said;
-  for (const double ratio : {10.0, 1000.0, 1e4}) {
-    INFO("radius ratio " << ratio);
-    const scree::core::Random random(5, "sizes");
-    const double small = 1e-3, large = ratio * small;
-    std::vector<std::array<double, 4>> all{{0, 0, 0, large}};
-    std::string balls = "x,y,z,radius\n0,0,0," + digits(large) + "\n";
-    for (uint64_t k = 0; k < 400; ++k) {
-      double at[3], size = 0;
-      for (uint64_t c = 0; c < 3; ++c) size += std::pow(at[c] = random.normal(k, c), 2);
-      // All on one side, so that small ones meet as well where the large one is not too large.
-      at[2] = std::abs(at[2]) + 30 * std::sqrt(size) * (ratio > 10 ? 1 : 0);
-      size = std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-      const double distance = large + small * (1 + 0.1 * (random.uniform(k, 3) - 0.5));
-      all.push_back({at[0] / size * distance, at[1] / size * distance, at[2] / size * distance, small});
-      balls += digits(all.back()[0]) + "," + digits(all.back()[1]) + "," + digits(all.back()[2]) + ",1e-3\n";
-    }
-    uint64_t touching = 0;
-    for (std::size_t a = 0; a < all.size(); ++a)
-      for (std::size_t b = 0; b < a; ++b)
-        touching +=
-            std::hypot(all[a][0] - all[b][0], all[a][1] - all[b][1], all[a][2] - all[b][2]) < all[a][3] + all[b][3];
-    SceneRun run(
-        "scree: 1\ntimestep: 1e-7\noverlap_limit: 300 %\nballs:\n  all: {generator: file, path: balls.csv, "
-        "density: 2500}\n"
-        "contacts:\n  - {between: [all, all], model: linear, kn: 1e4, ks: 0}\n",
-        balls);
-    CHECK(run.engine().contacts.active() == touching);
-    CHECK(touching > 150);
-    run.step(200);
-    CHECK(run.engine().balls.size() == 401);
-    said += "1:" + lab::number(ratio) + ": " + std::to_string(touching) + " contacts; ";
-  }
-  lab::measured("5, 6, D5", said + "as counted by brute force");
 }
 
 TEST_CASE("D1 OK: stiffnesses of 1e9 and 1e3 in series give 999.999000001 N/m") {
@@ -174,14 +128,10 @@ contacts:
 }
 
 TEST_CASE("D2 OK: a bond of 1e9 N/m beside a contact of 1e3 N/m on the same pair sets the step") {
-  const double area = std::numbers::pi * 1e-4;
-  SceneRun run(
-      "scree: 1\nballs:\n  pair: {generator: file, path: balls.csv, density: 2500}\ncontacts:\n  - "
-      "{name: glue, between: [pair, pair], model: parallel_bond, kn: 1e3, ks: 0, fric: 0, pb_ks: 0, pb_ten: .inf, "
-      "pb_coh: .inf, pb_kn: " +
-          digits(1e9 / area) +
-          "}\nprocesses:\n  energy: {process: energy_ledger}\nstages:\n  - glue: [bond: {rule: glue, gap: 1e-6}]\n",
-      "x,y,z,radius,vx,vy,vz\n0,0,0,0.01,0.1,0,0\n0.02,0,0,0.01,-0.1,0,0\n");
+  SceneRun run(chain("model: parallel_bond, kn: 1e3, ks: 0, fric: 0, pb_ks: 0, pb_ten: .inf, pb_coh: .inf, pb_kn: " +
+                     digits(1e9 / area)) +
+                   "processes:\n  energy: {process: energy_ledger}\n",
+               "x,y,z,radius,vx,vy,vz\n0,0,0,0.01,0.1,0,0\n0.02,0,0,0.01,-0.1,0,0\n");
   edit(run);
   const double limit = 2 * std::sqrt(mass / 2 / (1e9 + 1e3));
   run.step(10);
