@@ -73,7 +73,7 @@ void add_pairs(Diagonals& sums, const TouchList& list, const BoundRule& rule, co
 
 void add_wall(Diagonals& sums, const WallList& list, const BoundRule& rule, const Balls& balls, Scratch& s,
               Tangents& t) {
-  const std::size_t words = rule.state_words(), varying = rule.varying.size();
+  const std::size_t words = rule.memory_words(list.bonded), varying = rule.varying.size();
   for (std::size_t slot = 0; slot < list.slots.size(); ++slot) {
     const WallSlot& contact = list.slots[slot];
     const double radius = balls[Column::radius][contact.row];
@@ -87,7 +87,7 @@ void add_wall(Diagonals& sums, const WallList& list, const BoundRule& rule, cons
     s.mass[0] = balls[Column::mass][contact.row];
     for (std::size_t w = 0; w < words; ++w) s.state[w][0] = list.state[slot * words + w];
     for (std::size_t v = 0; v < varying; ++v) s.property[v][0] = list.property[slot * varying + v];
-    tangents(rule, 1, false, s, t);
+    tangents(rule, 1, list.bonded, s, t);
     sums.add(contact.row, radius, s, t, 0);
   }
 }
