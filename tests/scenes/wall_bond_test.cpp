@@ -372,12 +372,13 @@ TEST_CASE("the log of events names the wall of a bond that broke") {
   act(run, 0);
   while (run.value("bonds.broken") == 0 && run.time() < 1) run.step();
   const TemporaryFolder folder;
-  scree::core::OutputFiles files(scree::core::Fd(::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
-                                 folder.path());
-  scree::core::EventLog log(files);
   const double time = run.time(), energy = run.engine().broken.at(0).what.energy;
   const std::string z = digits(run.engine().broken[0].what.point[2]);
-  log.take(run.engine());
+  {
+    scree::core::OutputFiles files(scree::core::Fd(::open(folder.path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
+                                   folder.path());
+    scree::core::EventLog(files).take(run.engine());
+  }
   std::ifstream in(folder / "events.csv");
   std::string head, line;
   REQUIRE(std::getline(in, head));
