@@ -118,7 +118,7 @@ Json bond() {
                        {"gap", told(with(number(), {{"minimum", 0}}), "largest gap of a pair that is bonded, m")},
                        {"again", told(Json{{"type", "boolean"}}, "also pairs whose bond broke; true if absent")},
                        {"between", told(Json{{"type", "array"}, {"items", names}, {"minItems", 2}, {"maxItems", 2}},
-                                        "only pairs between these two sides of groups")}},
+                                        "only pairs between these two sides of ball groups and walls")}},
                       {"rule"}),
               "bonds the pairs of a rule that are near enough");
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/contact/contacts.hpp"
 
@@ -8,9 +9,6 @@
 namespace scree::core {
 
 namespace {
-
-// Pieces that are placed to touch exactly are a rounding error apart.
-constexpr double touching = 1e-12;
 
 double gap_of(const Balls& balls, const PeriodicCell& cell, std::size_t low, std::size_t high, uint8_t image) {
   double square = 0;
@@ -26,14 +24,15 @@ double gap_of(const Balls& balls, const PeriodicCell& cell, std::size_t low, std
 
 }  // namespace
 
-uint64_t Contacts::bond(const BondOrder& order, const Balls& balls, const PeriodicCell& cell, Team& team) {
+uint64_t Contacts::bond(const BondOrder& order, const Balls& balls, const std::vector<Wall>& walls,
+                        const PeriodicCell& cell, Team& team) {
   const std::size_t n = balls.size();
   double largest = 0;
   for (std::size_t row = 0; row < n; ++row) largest = std::max(largest, balls[Column::radius][row]);
   const PairTable pairs = find_pairs(balls, cell, std::max(0.0, order.gap) + 1e-9 * largest, team);
   const uint16_t* group = balls.group();
   const uint64_t* id = balls.id();
-  const std::size_t rules = book.rules.size(), made = fresh_.size();
+  const std::size_t rules = book.rules.size(), before = fresh_.size() + fresh_walls_.size();
   const auto bonded_already = [&](uint32_t low, uint32_t high) {
     for (std::size_t k = rules; k < lists_.size(); ++k)
       if (const uint32_t slot = find_slot(lists_[k], low, high); slot != no_slot && lists_[k].broken[slot] == 0)
@@ -46,14 +45,16 @@ uint64_t Contacts::bond(const BondOrder& order, const Balls& balls, const Period
       const uint32_t high = pairs.other[k];
       if (book.balls(group[low], group[high]) != order.rule) continue;
       const double sum = balls[Column::radius][low] + balls[Column::radius][high];
-      if (gap_of(balls, cell, low, high, pairs.image[k]) > order.gap + touching * sum) continue;
+      if (gap_of(balls, cell, low, high, pairs.image[k]) > order.gap + BondOrder::touching * sum) continue;
       if (order.chosen && !order.chosen(group[low], group[high])) continue;
       if (!order.again && breaks.count({std::min(id[low], id[high]), std::max(id[low], id[high])}) != 0) continue;
       if (bonded_already(low, high)) continue;
       fresh_.push_back({order.rule, low, high});
     }
-  if (fresh_.size() > made) built_ = false;
-  return fresh_.size() - made;
+  bond_walls(order, balls, walls);
+  const std::size_t made = fresh_.size() + fresh_walls_.size() - before;
+  if (made > 0) built_ = false;
+  return made;
 }
 
 void Contacts::drop_bonds(std::size_t rule) {
@@ -64,6 +65,7 @@ void Contacts::drop_bonds(std::size_t rule) {
     list.rule = of;
     list.bonded = true;
   }
+  std::erase_if(wall_lists_, [&](const WallList& list) { return list.bonded && list.rule == rule; });
   built_ = false;
 }
 
@@ -73,9 +75,14 @@ std::vector<Break> Contacts::take_breaks() {
     all.insert(all.end(), block.begin(), block.end());
     block.clear();
   }
-  std::sort(all.begin(), all.end(), [](const Break& a, const Break& b) { return a.ids < b.ids; });
+  std::sort(all.begin(), all.end(), [](const Break& a, const Break& b) {
+    return std::tie(a.ids, a.wall, a.patch) < std::tie(b.ids, b.wall, b.patch);
+  });
   for (const Break& one : all) {
-    ++breaks[one.ids];
+    if (one.wall == no_wall_index)
+      ++breaks[one.ids];
+    else
+      ++wall_breaks[{one.ids.first, one.wall, one.patch}];
     ++broken_bonds[one.mode == 1 ? 0 : 1];
   }
   return all;
@@ -85,6 +92,7 @@ uint64_t Contacts::bonded() const {
   uint64_t sum = 0;
   for (const TouchList& list : lists_)
     for (std::size_t k = 0; k < list.broken.size(); ++k) sum += list.broken[k] == 0;
+  for (const WallList& list : wall_lists_) sum += list.bonds.size();
   return sum;
 }
 

@@ -191,31 +191,7 @@ Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vec
     Excess excess = run_list(block, index, balls, shift, options, s);
     if (excess.found && !worst.found) worst = excess;
   }
-  const BallView view(balls);
-  for (std::size_t k = wall_first_[block]; k < wall_first_[block + 1]; ++k) {
-    WallList& list = wall_lists_[k];
-    const BoundRule& rule = book.rules[list.rule];
-    const WallPass pass{&view,
-                        balls.id(),
-                        &walls[list.wall],
-                        &rule,
-                        block * block_rows,
-                        slices_.slice(block),
-                        slices_.stride(),
-                        options.dt,
-                        options.overlap_limit,
-                        options.sums,
-                        options.report,
-                        options.cycle,
-                        options.energy ? &block_energy_[block] : nullptr};
-    crash_note = {rule.model_name.c_str(), rule.name.c_str(), options.cycle, block};
-    const WallExcess excess = run_wall_list(list, pass, s);
-    if (excess.slot < 0 || worst.found) continue;
-    const uint32_t row = list.slots[static_cast<std::size_t>(excess.slot)].row;
-    const double r = view.radius[row];
-    worst = {true,           rule.name, rule.model_name, balls.id()[row], 0, walls[list.wall].name,
-             excess.overlap, r,         excess.useless,  excess.value};
-  }
+  run_walls(block, balls, walls, options, worst, s);
   crash_note = CrashNote{};
   return worst;
 }
@@ -257,23 +233,10 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
   return {};
 }
 
-double Contacts::wall_stiffness(std::size_t wall, const Balls& balls, const std::vector<Wall>& walls) {
-  if (!built_) return 0;
-  if (scratch_.empty()) scratch_.resize(1);  // a resumed run may ask before its first pass
-  const BallView view(balls);
-  double sum = 0;
-  for (const WallList& list : wall_lists_) {
-    if (list.wall != wall || book.rules[list.rule].model == nullptr) continue;
-    const WallPass pass{&view, balls.id(), &walls[wall], &book.rules[list.rule], 0, nullptr, 0, 0, 1, false,
-                        false, 0,          nullptr};
-    sum += wall_list_stiffness(list, pass, scratch_[0]);
-  }
-  return sum;
-}
-
 void Contacts::forget() {
   lists_.clear();
   fresh_.clear();
+  fresh_walls_.clear();
   wall_lists_.clear();
   wall_first_.clear();
   built_ = false;
@@ -326,71 +289,6 @@ void Contacts::lay_out_lists() {
   lists_.swap(fresh);
 }
 
-void Contacts::rebuild_wall_lists(const Balls& balls, const std::vector<Wall>& walls,
-                                  const std::vector<uint32_t>& new_row, double skin, Team& team) {
-  const std::size_t blocks = (balls.size() + block_rows - 1) / block_rows;
-  std::vector<std::vector<WallList>> fresh(blocks);
-  const BallView view(balls);
-  team.each_block(blocks, [&](std::size_t block) {
-    const std::size_t first = block * block_rows, last = std::min(balls.size(), first + block_rows);
-    for (std::size_t w = 0; w < walls.size(); ++w) {
-      const std::vector<uint32_t> near = wall_candidates(view, walls[w], first, last, skin + book.reach());
-      for (std::size_t rule = 0; rule < book.rules.size() && !near.empty(); ++rule) {
-        if (book.rules[rule].model == nullptr) continue;
-        WallList list;
-        list.block = static_cast<uint32_t>(block);
-        list.wall = static_cast<uint16_t>(w);
-        list.rule = static_cast<uint16_t>(rule);
-        for (uint32_t row : near)
-          if (book.wall(balls.group()[row], list.wall) == rule) list.candidates.push_back(row);
-        if (!list.candidates.empty()) fresh[block].push_back(std::move(list));
-      }
-    }
-  });
-  std::vector<WallList> old;
-  old.swap(wall_lists_);
-  wall_first_.assign(1, 0);
-  for (auto& part : fresh) {
-    for (WallList& list : part) wall_lists_.push_back(std::move(list));
-    wall_first_.push_back(wall_lists_.size());
-  }
-  give_wall_slots(old, new_row);
-}
-
-// What wall contacts remember goes to the list that now holds their row.
-void Contacts::give_wall_slots(const std::vector<WallList>& old, const std::vector<uint32_t>& new_row) {
-  struct Kept {
-    std::size_t to;
-    WallSlot slot;
-    const double *state, *property;
-  };
-  std::vector<Kept> kept;
-  for (const WallList& list : old) {
-    const BoundRule& rule = book.rules[list.rule];
-    const std::size_t words = rule.state_words(), varying = rule.varying.size();
-    if (list.state.size() != list.slots.size() * words || list.property.size() != list.slots.size() * varying) continue;
-    for (std::size_t k = 0; k < list.slots.size(); ++k) {
-      WallSlot slot = list.slots[k];
-      if (!new_row.empty()) slot.row = new_row[slot.row];
-      const std::size_t block = slot.row / block_rows;
-      for (std::size_t to = wall_first_[block]; to < wall_first_[block + 1]; ++to)
-        if (wall_lists_[to].wall == list.wall && wall_lists_[to].rule == list.rule)
-          kept.push_back({to, slot, list.state.data() + k * words, list.property.data() + k * varying});
-    }
-  }
-  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) {
-    if (a.to != b.to) return a.to < b.to;
-    return a.slot.row != b.slot.row ? a.slot.row < b.slot.row : a.slot.patch < b.slot.patch;
-  });
-  for (const Kept& one : kept) {
-    WallList& list = wall_lists_[one.to];
-    const BoundRule& rule = book.rules[list.rule];
-    list.slots.push_back(one.slot);
-    list.state.insert(list.state.end(), one.state, one.state + rule.state_words());
-    list.property.insert(list.property.end(), one.property, one.property + rule.varying.size());
-  }
-}
-
 void Contacts::rows_kept(const std::vector<uint8_t>& keep) {
   std::vector<uint32_t> rows;
   for (std::size_t row = 0; row < keep.size(); ++row)
@@ -420,23 +318,12 @@ void Contacts::restore(std::vector<TouchList> lists, std::vector<WallList> wall_
   slices_.build(lists_, rows, book.spins() ? Slices::with_spin : Slices::lean, team);
 }
 
-void Contacts::wall_gone(std::size_t wall) {
-  std::erase_if(wall_lists_, [&](const WallList& list) { return list.wall == wall; });
-  for (WallList& list : wall_lists_)
-    if (list.wall > wall) --list.wall;
-  built_ = false;
-}
-
 void Contacts::renew(std::size_t rule, const Balls& balls, const std::vector<Wall>& walls) {
   built_ = false;
   for (TouchList& list : lists_)
     if (list.rule == rule) list.stale = true;
-  const BoundRule& law = book.rules[rule];
-  const BallView view(balls);
-  for (WallList& list : wall_lists_) {
-    if (list.rule != rule) continue;
-    renew_wall_list(list, law, view, walls[list.wall]);
-  }
+  for (WallList& list : wall_lists_)
+    if (list.rule == rule) renew_wall_list(list, book.rules[rule], balls, walls[list.wall], wall_breaks);
 }
 
 std::size_t Contacts::bytes() const {
@@ -444,6 +331,7 @@ std::size_t Contacts::bytes() const {
   for (const TouchList& list : lists_) sum += list.bytes();
   for (const WallList& list : wall_lists_)
     sum += list.candidates.capacity() * sizeof(uint32_t) + list.slots.capacity() * sizeof(WallSlot) +
+           list.bonds.capacity() * sizeof(WallBond) +
            (list.state.capacity() + list.property.capacity() + list.report.capacity()) * sizeof(double);
   return sum;
 }

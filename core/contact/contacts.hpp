@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact/bond_table.hpp"
+#include "core/contact/break.hpp"
 #include "core/contact/contact_energy.hpp"
 #include "core/contact/rule.hpp"
 #include "core/contact/run_law.hpp"
@@ -13,6 +14,7 @@
 #include "core/contact/slices.hpp"
 #include "core/contact/stages.hpp"
 #include "core/contact/touch_list.hpp"
+#include "core/contact/wall_bonds.hpp"
 #include "core/contact/wall_list.hpp"
 #include "core/world/balls.hpp"
 #include "core/world/cell.hpp"
@@ -31,21 +33,17 @@ struct Excess {
   std::array<double, 3> value{};   ///< of that force or moment on piece 2, N or N m
 };
 
-/// A bond that broke in the last pass.
-struct Break {
-  IdPair ids;
-  uint16_t rule = 0;
-  uint8_t mode = 0;               ///< 1 tension, 2 shear
-  std::array<double, 3> point{};  ///< where the pieces meet, m
-  double energy = 0;              ///< that the bond held, J; 0 where the law says nothing of energy
-};
-
 /// Which pairs an order to bond means.
 struct BondOrder {
+  /// Pieces that are placed to touch exactly are a rounding error apart: this share of their radii.
+  static constexpr double touching = 1e-12;
   uint16_t rule = 0;
   double gap = 0;                                                ///< largest gap of a pair that is bonded, m
   bool again = true;                                             ///< also pairs whose bond broke
   std::function<bool(uint16_t group1, uint16_t group2)> chosen;  ///< empty: all pairs of the rule
+  /// Also with these walls, by index. Empty: with none, except that a rule that holds between no two balls means its
+  /// walls where `chosen` is empty too.
+  std::function<bool(uint16_t group, uint16_t wall)> chosen_walls{};
 };
 
 /// What one evaluation of all contacts is asked to do beside forces.
@@ -96,7 +94,8 @@ class Contacts {
   /// Bonds the pairs of a rule whose gap is at most that of the order and which are not bonded yet; they are in the
   /// bonded list from the next rebuild on, which must follow. The lists must be built and nothing moved since. How
   /// many.
-  uint64_t bond(const BondOrder& order, const Balls& balls, const PeriodicCell& cell, Team& team);
+  uint64_t bond(const BondOrder& order, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
+                Team& team);
   /// Takes all bonds of a rule away, as if they had never been.
   void drop_bonds(std::size_t rule);
   /// Bonds that broke in the last pass, by ids; counts them. Call once after every pass.
@@ -105,7 +104,8 @@ class Contacts {
   /// Sums of the last pass that was asked for them.
   const ContactEnergy& energy() const { return energy_; }
   void set_energy(const ContactEnergy& energy) { energy_ = energy; }
-  BreakHistory breaks;                     ///< of all bonds so far
+  BreakHistory breaks;                     ///< of all bonds between balls so far
+  WallBreakHistory wall_breaks;            ///< of all bonds with walls so far
   std::array<uint64_t, 2> broken_bonds{};  ///< how many broke so far, in tension and in shear
   std::size_t bytes() const;
   uint64_t active() const;  ///< ball-ball contacts whose law runs
@@ -121,13 +121,19 @@ class Contacts {
   void lay_out_lists();
   void run_batch(TouchList& list, uint32_t n, const Balls& balls, const PassOptions& options, std::size_t block,
                  Scratch& scratch);
+  void run_walls(std::size_t block, const Balls& balls, const std::vector<Wall>& walls, const PassOptions& options,
+                 Excess& worst, Scratch& scratch);
   void give_wall_slots(const std::vector<WallList>& old, const std::vector<uint32_t>& new_row);
+  bool bonded_with(uint32_t row, uint16_t wall, uint32_t patch) const;
+  bool between_balls(uint16_t rule) const;
+  void bond_walls(const BondOrder& order, const Balls& balls, const std::vector<Wall>& walls);
   std::vector<TouchList> lists_;             ///< see lists()
   std::vector<NewBond> fresh_;               ///< made at the next rebuild
+  std::vector<NewWallBond> fresh_walls_;     ///< the same with walls
   std::vector<std::vector<Break>> broke_;    ///< in the last pass, by block
   std::vector<ContactEnergy> block_energy_;  ///< of the last pass
   ContactEnergy energy_;
-  std::vector<WallList> wall_lists_;     ///< by block, wall and rule
+  std::vector<WallList> wall_lists_;     ///< by block, wall and rule, a bonded one behind that beside it
   std::vector<std::size_t> wall_first_;  ///< first wall list of each block; blocks + 1
   Slices slices_;
   std::vector<Scratch> scratch_;  ///< one per thread

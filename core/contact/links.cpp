@@ -34,7 +34,7 @@ class Gatherer {
         sink_(sink) {}
 
   void pairs(std::size_t block, Links& out);
-  void walls(const WallList& list, Links& out);
+  void walls(std::size_t index, Links& out);
 
  private:
   bool holds(std::size_t row) const { return row >= first_ && row < last_; }
@@ -45,6 +45,9 @@ class Gatherer {
   void keep(const BoundRule& rule, uint32_t k, Links& out);
   void lower(StepBound& held, double step, const char* term, uint32_t k) const;
   void load(const BoundRule& rule, const Wall& wall, uint32_t row, uint32_t touch, uint32_t k);
+  void place(const Wall& wall, uint32_t row, uint32_t touch, uint32_t k);
+  void wall_bonds(const WallList& list, Links& out);
+  bool bonded() const { return bonded_ != nullptr || glued_; }
 
   const Contacts& contacts_;
   const Balls& balls_;
@@ -61,6 +64,7 @@ class Gatherer {
   std::vector<uint8_t> nobody_;
   uint32_t wall_ = no_row;             ///< of the batch; no_row for pairs of balls
   const TouchList* bonded_ = nullptr;  ///< of the batch, when its pairs are bonded
+  bool glued_ = false;                 ///< the batch is of balls that are bonded to a wall
 };
 
 // Does the block own a pair with an end among the rows that are asked about?
@@ -73,6 +77,7 @@ bool Gatherer::concerns(const TouchList& list, std::size_t block) const {
 
 void Gatherer::pairs(std::size_t block, Links& out) {
   wall_ = no_row;
+  glued_ = false;
   for (std::size_t index = 0; index < contacts_.lists().size(); ++index) {
     const TouchList& list = contacts_.lists()[index];
     if (rule_of(contacts_, index).model != nullptr && list.size() > 0 && concerns(list, block))
@@ -112,16 +117,16 @@ void Gatherer::list(std::size_t index, std::size_t block, Links& out) {
 
 void Gatherer::batch(const BoundRule& rule, uint32_t n, Links& out) {
   // A bond is no collision.
-  if (bonded_ == nullptr && (query_.impact_share > 0 || query_.birth_depth > 0)) limits(rule, n, out);
+  if (!bonded() && (query_.impact_share > 0 || query_.birth_depth > 0)) limits(rule, n, out);
   // The deepest that a pair can get before the next estimate: laws that stiffen are taken at the stiffness of then.
   double gap[Scratch::size];
   std::copy_n(s_.gap, n, gap);
   for (uint32_t k = 0; k < n; ++k) s_.gap[k] -= query_.margin;
-  tangents(rule, n, bonded_ != nullptr, s_, t_);
+  tangents(rule, n, bonded(), s_, t_);
   std::copy_n(gap, n, s_.gap);
   for (uint32_t k = 0; k < n; ++k) {
     const bool holds = bonded_ != nullptr && bonded_->broken[s_.slot[k]] == 0;
-    if (holds || !(gap[k] >= rule.reach + query_.margin)) keep(rule, k, out);
+    if (holds || glued_ || !(gap[k] >= rule.reach + query_.margin)) keep(rule, k, out);
   }
 }
 
@@ -176,7 +181,7 @@ void Gatherer::keep(const BoundRule& rule, uint32_t k, Links& out) {
   link.normal[1] = sign * s_.ny[k];
   link.normal[2] = sign * s_.nz[k];
   // A gap that has yet to close does not lengthen the arm it will have.
-  const double half = 0.5 * (bonded_ != nullptr ? s_.gap[k] : std::min(rule.reach, s_.gap[k]));
+  const double half = 0.5 * (bonded() ? s_.gap[k] : std::min(rule.reach, s_.gap[k]));
   link.arm[0] = view_.radius[i] + half;
   link.arm[1] = j == no_row ? 0.0 : view_.radius[j] + half;
   link.kn = t_.normal[k];
@@ -190,8 +195,8 @@ void Gatherer::keep(const BoundRule& rule, uint32_t k, Links& out) {
   out.links.push_back(link);
 }
 
-/// One touch of a candidate as a contact that is or could be.
-void Gatherer::load(const BoundRule& rule, const Wall& wall, uint32_t row, uint32_t touch, uint32_t k) {
+/// Where a ball meets a wall, and how it moves there.
+void Gatherer::place(const Wall& wall, uint32_t row, uint32_t touch, uint32_t k) {
   s_.row[k] = row;
   s_.nx[k] = touches_.nx[touch];
   s_.ny[k] = touches_.ny[touch];
@@ -200,6 +205,21 @@ void Gatherer::load(const BoundRule& rule, const Wall& wall, uint32_t row, uint3
   s_.r1[k] = view_.radius[row];
   s_.r2[k] = 0;
   s_.mass[k] = 1.0 / view_.inverse_mass[row];
+  const double away = touches_.distance[touch];
+  const double arm[3] = {view_.x[row] + away * s_.nx[k] - wall.centre[0],
+                         view_.y[row] + away * s_.ny[k] - wall.centre[1],
+                         view_.z[row] + away * s_.nz[k] - wall.centre[2]};
+  const auto& w = wall.spin;
+  s_.vx[k] = wall.velocity[0] + w[1] * arm[2] - w[2] * arm[1] - view_.vx[row];
+  s_.vy[k] = wall.velocity[1] + w[2] * arm[0] - w[0] * arm[2] - view_.vy[row];
+  s_.vz[k] = wall.velocity[2] + w[0] * arm[1] - w[1] * arm[0] - view_.vz[row];
+}
+
+/// One touch of a candidate as a contact that is or could be.
+void Gatherer::load(const BoundRule& rule, const Wall& wall, uint32_t row, uint32_t touch, uint32_t k) {
+  place(wall, row, touch, k);
+  for (uint32_t word = 0; word < rule.state_words(); ++word) s_.state[word][k] = 0;
+  if (rule.varying.empty()) return;
   Birth birth;
   birth.row1 = row;
   birth.wall = &wall;
@@ -209,22 +229,17 @@ void Gatherer::load(const BoundRule& rule, const Wall& wall, uint32_t row, uint3
   birth.x = view_.x[row];
   birth.y = view_.y[row];
   birth.z = view_.z[row];
-  const double away = touches_.distance[touch];
-  const double arm[3] = {birth.x + away * s_.nx[k] - wall.centre[0], birth.y + away * s_.ny[k] - wall.centre[1],
-                         birth.z + away * s_.nz[k] - wall.centre[2]};
-  const auto& w = wall.spin;
-  s_.vx[k] = wall.velocity[0] + w[1] * arm[2] - w[2] * arm[1] - view_.vx[row];
-  s_.vy[k] = wall.velocity[1] + w[2] * arm[0] - w[0] * arm[2] - view_.vy[row];
-  s_.vz[k] = wall.velocity[2] + w[0] * arm[1] - w[1] * arm[0] - view_.vz[row];
-  for (uint32_t word = 0; word < rule.state_words(); ++word) s_.state[word][k] = 0;
-  if (rule.varying.empty()) return;
+  const auto index = static_cast<uint16_t>(wall_);
+  birth.bonding = bondings(contacts_.wall_breaks, {balls_.id()[row], index, birth.patch}, false);
   thread_local std::vector<double> words;
   words = rule.words;
   rule.vary(birth, words.data());
   for (std::size_t v = 0; v < rule.varying.size(); ++v) s_.property[v][k] = words[rule.varying[v]];
 }
 
-void Gatherer::walls(const WallList& list, Links& out) {
+void Gatherer::walls(std::size_t index, Links& out) {
+  const WallList& list = contacts_.wall_lists()[index];
+  if (list.bonded) return wall_bonds(list, out);
   const BoundRule& rule = contacts_.book.rules[list.rule];
   std::vector<uint32_t> rows;
   for (const uint32_t row : list.candidates)
@@ -232,9 +247,11 @@ void Gatherer::walls(const WallList& list, Links& out) {
   if (rows.empty() || rule.model == nullptr) return;
   wall_ = list.wall;
   bonded_ = nullptr;
+  glued_ = false;
   const Wall& wall = walls_[list.wall];
   // Twice the radius shows those that come, for the limits of collisions.
   touches_.find(wall, view_, rows, 2, rule.reach + query_.margin);
+  for (const WallList& bonds : bonds_beside(contacts_.wall_lists(), index)) leave_out(touches_, rows, bonds);
   uint32_t n = 0;
   const auto flush = [&] {
     if (n > 0) batch(rule, n, out);
@@ -243,6 +260,31 @@ void Gatherer::walls(const WallList& list, Links& out) {
   for (const uint32_t touch : touches_.order) {
     load(rule, wall, rows[touches_.ball[touch]], touch, n++);
     if (n == Scratch::size) flush();
+  }
+  flush();
+}
+
+// Bonds hold at any distance; a wall does not move by their forces.
+void Gatherer::wall_bonds(const WallList& list, Links& out) {
+  const BoundRule& rule = contacts_.book.rules[list.rule];
+  wall_ = list.wall;
+  bonded_ = nullptr;
+  glued_ = true;
+  const Wall& wall = walls_[list.wall];
+  place_bonds(list, wall, view_, touches_);
+  const std::size_t words = rule.memory_words(true), varying = rule.varying.size();
+  uint32_t n = 0;
+  const auto flush = [&] {
+    if (n > 0) batch(rule, n, out);
+    n = 0;
+  };
+  for (std::size_t slot = 0; slot < list.slots.size(); ++slot) {
+    const uint32_t row = list.slots[slot].row;
+    if (!holds(row) || !(view_.inverse_mass[row] > 0)) continue;
+    place(wall, row, touches_.order[slot], n);
+    for (std::size_t w = 0; w < words; ++w) s_.state[w][n] = list.state[slot * words + w];
+    for (std::size_t v = 0; v < varying; ++v) s_.property[v][n] = list.property[slot * varying + v];
+    if (++n == Scratch::size) flush();
   }
   flush();
 }
@@ -269,7 +311,7 @@ Links gather(const Contacts& contacts, const Balls& balls, const std::vector<Wal
     if (part < blocks)
       gatherers[thread]->pairs(part, parts[part]);
     else
-      gatherers[thread]->walls(contacts.wall_lists()[part - blocks], parts[part]);
+      gatherers[thread]->walls(part - blocks, parts[part]);
   });
   Links all;
   std::size_t total = 0;

@@ -6,6 +6,7 @@
 #include "core/base/crash_note.hpp"
 #include "core/contact/run_law.hpp"
 #include "core/contact/slices.hpp"
+#include "core/contact/wall_bonds.hpp"
 #include "core/contact/wall_touches.hpp"
 
 namespace scree::core {
@@ -20,12 +21,13 @@ V cross(const V& a, const V& b) {
 double dot(const V& a, const V& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// A contact of the wall at one place: ball, patch, direction to the contact point.
-Birth birth_at_wall(const BallView& balls, const Wall& wall, const WallSlot& slot, double distance) {
+Birth birth_at_wall(const BallView& balls, const Wall& wall, const WallSlot& slot, double distance, uint64_t bonding) {
   const uint32_t row = slot.row;
   const V& normal = slot.normal;
   Birth birth;
   birth.row1 = row;
   birth.patch = slot.patch;
+  birth.bonding = bonding;
   birth.wall = &wall;
   birth.r1 = balls.radius[row];
   birth.mass = balls.inverse_mass[row] > 0 ? 1.0 / balls.inverse_mass[row] : 0.0;
@@ -62,7 +64,9 @@ void carry_over(WallList& list, const WallTouches& touches, const WallPass& pass
       ++old;
     } else if (varying > 0) {
       all = pass.rule->words;
-      pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, slots[k], touches.distance[t]), all.data());
+      const uint64_t bonding =
+          pass.breaks == nullptr ? 0 : bondings(*pass.breaks, {pass.id[row], list.wall, patch}, false);
+      pass.rule->vary(birth_at_wall(*pass.balls, *pass.wall, slots[k], touches.distance[t], bonding), all.data());
       for (std::size_t v = 0; v < varying; ++v) property[k * varying + v] = all[pass.rule->varying[v]];
     }
   }
@@ -79,6 +83,11 @@ bool geometry(WallList& list, const WallPass& pass, const WallTouches& touches, 
   const Wall& wall = *pass.wall;
   const bool spin = b.wx != nullptr && !pass.rule->normal_only();
   bool beyond = false;
+  const double half = 0.5 * pass.dt;
+  const auto turned_back = [&](const V& v) {
+    const V way = cross(wall.spin, v);
+    return V{v[0] - half * way[0], v[1] - half * way[1], v[2] - half * way[2]};
+  };
   for (uint32_t k = 0; k < n; ++k) {
     WallSlot& slot = list.slots[first + k];
     const uint32_t t = touches.order[first + k], i = slot.row;
@@ -86,12 +95,13 @@ bool geometry(WallList& list, const WallPass& pass, const WallTouches& touches, 
     const double gap = touches.distance[t] - b.radius[i], arm = b.radius[i] + 0.5 * gap;
     const V point{b.x[i] + arm * normal[0], b.y[i] + arm * normal[1], b.z[i] + arm * normal[2]};
     const V from_centre{point[0] - wall.centre[0], point[1] - wall.centre[1], point[2] - wall.centre[2]};
-    const V turning = cross(wall.spin, from_centre);
+    // Velocities are those of half a step before: so is the arm they turn with, or what sticks creeps with half a step.
+    const V turning = cross(wall.spin, turned_back(from_centre));
     V v{wall.velocity[0] + turning[0] - b.vx[i], wall.velocity[1] + turning[1] - b.vy[i],
         wall.velocity[2] + turning[2] - b.vz[i]};
     if (spin) {
       const V w{b.wx[i], b.wy[i], b.wz[i]};
-      const V surface = cross(w, normal);
+      const V surface = cross(w, turned_back(normal));
       for (std::size_t c = 0; c < 3; ++c) v[c] -= arm * surface[c];
       const V tilt = cross(slot.normal, normal);
       const double both = 1 + dot(slot.normal, normal);
@@ -161,15 +171,30 @@ void scatter(WallList& list, const WallPass& pass, std::size_t first, uint32_t n
 
 }  // namespace
 
-void renew_wall_list(WallList& list, const BoundRule& rule, const BallView& balls, const Wall& wall) {
-  const std::size_t words = rule.state_words(), varying = rule.varying.size();
+std::span<const WallList> bonds_beside(const std::vector<WallList>& lists, std::size_t index) {
+  const auto same_wall = [&](const WallList& list) {
+    return list.block == lists[index].block && list.wall == lists[index].wall;
+  };
+  std::size_t last = index, first = index;
+  while (last < lists.size() && same_wall(lists[last])) {
+    first += lists[last].bonded ? 0 : 1;
+    ++last;
+  }
+  return lists[index].bonded ? std::span<const WallList>() : std::span(lists).subspan(first, last - first);
+}
+
+void renew_wall_list(WallList& list, const BoundRule& rule, const Balls& balls, const Wall& wall,
+                     const WallBreakHistory& breaks) {
+  const std::size_t words = rule.memory_words(list.bonded), varying = rule.varying.size();
   if (list.state.size() != list.slots.size() * words) list.state.assign(list.slots.size() * words, 0.0);
   list.property.resize(list.slots.size() * varying);
+  const BallView view(balls);
   std::vector<double> all;
   for (std::size_t k = 0; k < list.slots.size() && varying > 0; ++k) {
     const WallSlot& slot = list.slots[k];
+    const uint64_t bonding = bondings(breaks, {balls.id()[slot.row], list.wall, slot.patch}, list.bonded);
     all = rule.words;
-    rule.vary(birth_at_wall(balls, wall, slot, balls.radius[slot.row]), all.data());
+    rule.vary(birth_at_wall(view, wall, slot, view.radius[slot.row], bonding), all.data());
     for (std::size_t v = 0; v < varying; ++v) list.property[k * varying + v] = all[rule.varying[v]];
   }
 }
@@ -183,11 +208,13 @@ void follow_rows(WallList& list, const std::vector<uint32_t>& now) {
     if (row == no_row) continue;
     list.slots[kept] = list.slots[k];
     list.slots[kept].row = row;
+    if (list.bonded) list.bonds[kept] = list.bonds[k];
     for (std::size_t w = 0; w < words; ++w) list.state[kept * words + w] = list.state[k * words + w];
     for (std::size_t v = 0; v < varying; ++v) list.property[kept * varying + v] = list.property[k * varying + v];
     ++kept;
   }
   list.slots.resize(kept);
+  list.bonds.resize(list.bonded ? kept : 0);
   list.state.resize(kept * words);
   list.property.resize(kept * varying);
   list.candidates.clear();
@@ -207,14 +234,77 @@ std::vector<uint32_t> wall_candidates(const BallView& balls, const Wall& wall, s
   return near;
 }
 
+namespace {
+
+void note_breaks(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, const Scratch& s) {
+  const BallView& b = *pass.balls;
+  for (uint32_t k = 0; k < n; ++k) {
+    if (s.event[k] == 0) continue;
+    const WallSlot& slot = list.slots[first + k];
+    const double arm = s.arm_i[k];
+    Break one;
+    one.ids = {pass.id[slot.row], 0};
+    one.rule = list.rule;
+    one.mode = list.bonds[first + k].broke = static_cast<uint8_t>(s.event[k]);
+    one.point = {b.x[slot.row] + arm * s.nx[k], b.y[slot.row] + arm * s.ny[k], b.z[slot.row] + arm * s.nz[k]};
+    one.energy = s.energy[3][k];
+    one.wall = list.wall;
+    one.patch = slot.patch;
+    pass.broke->push_back(one);
+  }
+}
+
+// The law on slots [first, first + n); on a break once more with energies, which the log of breaks wants.
+void run_slots(WallList& list, const WallPass& pass, std::size_t first, uint32_t n, Scratch& s) {
+  const std::size_t words = pass.rule->memory_words(list.bonded), varying = pass.rule->varying.size();
+  LawCall call{pass.dt, list.bonded, pass.energy != nullptr};
+  gather_columns(list, words, varying, first, n, s);
+  const auto id = [&](uint32_t k) { return pass.id[list.slots[first + k].row]; };
+  crash_note = {pass.rule->model_name.c_str(), pass.rule->name.c_str(), pass.cycle, list.block, id(0), 0,
+                pass.wall->name.c_str()};
+  const uint32_t broke = run_law(*pass.rule, n, call, s);
+  if (broke == law_threw) {
+    gather_columns(list, words, varying, first, n, s);
+    const uint32_t k = find_thrower(*pass.rule, n, call, s);
+    const std::string pieces = "ball " + std::to_string(k == n ? 0 : id(k)) + " and wall '" + pass.wall->name + "'";
+    refuse_thrower(*pass.rule, k == n ? "" : pieces, pass.cycle);
+  }
+  if (list.bonded && broke > 0 && !call.energy) {
+    call.energy = true;
+    gather_columns(list, words, varying, first, n, s);
+    run_law(*pass.rule, n, call, s);
+  }
+  if (list.bonded && broke > 0) note_breaks(list, pass, first, n, s);
+  for (std::size_t w = 0; w < words; ++w)
+    for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
+  if (pass.energy == nullptr) return;
+  for (uint32_t k = 0; k < n && pass.dt > 0; ++k) {
+    double& last = list.slots[first + k].dashpot;
+    const double now = s.energy[2][k];
+    s.energy[2][k] = ContactEnergy::dashpot_work(now, last);
+    last = now;
+  }
+  pass.energy->add(list.bonded, n, s);
+}
+
+// Where the contacts of the list are now; entry k of the order of touches belongs to slot k.
+void meet(WallList& list, const WallPass& pass, WallTouches& touches) {
+  if (list.bonded) {
+    const uint32_t seen = place_bonds(list, *pass.wall, *pass.balls, touches);
+    return keep_places(list, *pass.wall, *pass.balls, touches, seen);
+  }
+  touches.find(*pass.wall, *pass.balls, list.candidates, 1, pass.rule->reach);
+  for (const WallList& bonds : pass.bonds) leave_out(touches, list.candidates, bonds);
+  carry_over(list, touches, pass);
+}
+
+}  // namespace
+
 WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
   thread_local WallTouches touches;
   list.force = list.moment = {};
   list.report.clear();
-  touches.find(*pass.wall, *pass.balls, list.candidates, 1, pass.rule->reach);
-  carry_over(list, touches, pass);
-  const std::size_t words = pass.rule->state_words(), varying = pass.rule->varying.size();
-  const LawCall call{pass.dt, false, pass.energy != nullptr};
+  meet(list, pass, touches);
   WallExcess excess;
   for (std::size_t first = 0; first < list.slots.size(); first += Scratch::size) {
     const auto n = static_cast<uint32_t>(std::min<std::size_t>(Scratch::size, list.slots.size() - first));
@@ -222,27 +312,7 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
       for (uint32_t k = 0; k < n && excess.slot < 0; ++k)
         if (-s.gap[k] > pass.overlap_limit * s.r1[k])
           excess = {static_cast<int64_t>(first + k), nullptr, {}, -s.gap[k]};
-    gather_columns(list, words, varying, first, n, s);
-    const auto id = [&](uint32_t k) { return pass.id[list.slots[first + k].row]; };
-    crash_note = {pass.rule->model_name.c_str(), pass.rule->name.c_str(), pass.cycle, list.block, id(0), 0,
-                  pass.wall->name.c_str()};
-    if (run_law(*pass.rule, n, call, s) == law_threw) {
-      gather_columns(list, words, varying, first, n, s);
-      const uint32_t k = find_thrower(*pass.rule, n, call, s);
-      const std::string pieces = "ball " + std::to_string(k == n ? 0 : id(k)) + " and wall '" + pass.wall->name + "'";
-      refuse_thrower(*pass.rule, k == n ? "" : pieces, pass.cycle);
-    }
-    for (std::size_t w = 0; w < words; ++w)
-      for (uint32_t k = 0; k < n; ++k) list.state[(first + k) * words + w] = s.state[w][k];
-    if (pass.energy != nullptr) {
-      for (uint32_t k = 0; k < n && pass.dt > 0; ++k) {
-        double& last = list.slots[first + k].dashpot;
-        const double now = s.energy[2][k];
-        s.energy[2][k] = ContactEnergy::dashpot_work(now, last);
-        last = now;
-      }
-      pass.energy->add(false, n, s);
-    }
+    run_slots(list, pass, first, n, s);
     scatter(list, pass, first, n, s, excess);
   }
   return excess;
@@ -250,18 +320,17 @@ WallExcess run_wall_list(WallList& list, const WallPass& pass, Scratch& s) {
 
 double wall_list_stiffness(const WallList& list, const WallPass& pass, Scratch& s) {
   thread_local WallTouches touches;
-  if (list.slots.empty() || list.candidates.empty()) return 0;
+  if (list.slots.empty() || (!list.bonded && list.candidates.empty())) return 0;
   // A copy: it is lined up with the touches of now, the list itself waits for the next pass.
   WallList now = list;
-  touches.find(*pass.wall, *pass.balls, now.candidates, 1, pass.rule->reach);
-  carry_over(now, touches, pass);
+  meet(now, pass, touches);
   Tangents t;
   double sum = 0;
   for (std::size_t first = 0; first < now.slots.size(); first += SCREE_BATCH) {
     const auto n = static_cast<uint32_t>(std::min<std::size_t>(SCREE_BATCH, now.slots.size() - first));
     geometry(now, pass, touches, first, n, s);
-    gather_columns(now, pass.rule->state_words(), pass.rule->varying.size(), first, n, s);
-    tangents(*pass.rule, n, false, s, t);
+    gather_columns(now, pass.rule->memory_words(now.bonded), pass.rule->varying.size(), first, n, s);
+    tangents(*pass.rule, n, now.bonded, s, t);
     for (uint32_t k = 0; k < n; ++k) sum += t.normal[k];
   }
   return sum;

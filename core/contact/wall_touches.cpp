@@ -11,7 +11,8 @@ void WallTouches::resize(std::size_t touches) {
 }
 
 // Grows the columns until all touches fit.
-void WallTouches::ask(const Wall& wall, std::size_t rows) {
+void WallTouches::ask(const Wall& wall, const std::vector<double>& reach) {
+  const std::size_t rows = reach.size();
   if (ball.size() < rows + 64) resize(rows + 64);
   for (int again = 0;; ++again) {
     const scree_touches touches{sizeof(scree_touches),
@@ -22,7 +23,7 @@ void WallTouches::ask(const Wall& wall, std::size_t rows) {
                                 ny.data(),
                                 nz.data(),
                                 distance.data()};
-    count = wall.touch(static_cast<uint32_t>(rows), x_.data(), y_.data(), z_.data(), reach_.data(), touches);
+    count = wall.touch(static_cast<uint32_t>(rows), x_.data(), y_.data(), z_.data(), reach.data(), touches);
     if (count <= ball.size()) return;
     if (again > 0) wall.refuse("gives more touches each time it is asked for the same balls");
     resize(count);
@@ -31,20 +32,26 @@ void WallTouches::ask(const Wall& wall, std::size_t rows) {
 
 void WallTouches::find(const Wall& wall, const BallView& balls, const std::vector<uint32_t>& rows, double radii,
                        double margin) {
+  reach_.resize(rows.size());
+  for (std::size_t k = 0; k < rows.size(); ++k) reach_[k] = radii * balls.radius[rows[k]] + margin;
+  find(wall, balls, rows, reach_);
+}
+
+void WallTouches::find(const Wall& wall, const BallView& balls, const std::vector<uint32_t>& rows,
+                       const std::vector<double>& reach) {
   const std::size_t n = rows.size();
   count = 0;
   order.clear();
   if (n == 0) return;
-  for (auto* column : {&x_, &y_, &z_, &reach_}) column->resize(n);
+  for (auto* column : {&x_, &y_, &z_}) column->resize(n);
   for (std::size_t k = 0; k < n; ++k) {
     const uint32_t row = rows[k];
     const auto local = wall.to_frame({balls.x[row], balls.y[row], balls.z[row]});
     x_[k] = local[0];
     y_[k] = local[1];
     z_[k] = local[2];
-    reach_[k] = radii * balls.radius[row] + margin;
   }
-  ask(wall, n);
+  ask(wall, reach);
   order.resize(count);
   for (uint32_t k = 0; k < count; ++k) order[k] = k;
   const auto before = [&](uint32_t a, uint32_t b) {
@@ -58,6 +65,15 @@ void WallTouches::find(const Wall& wall, const BallView& balls, const std::vecto
     ny[k] = turned[1];
     nz[k] = turned[2];
   }
+}
+
+uint32_t WallTouches::add(const std::array<double, 3>& normal, double away) {
+  if (nx.size() <= count) resize(2 * count + 8);
+  nx[count] = normal[0];
+  ny[count] = normal[1];
+  nz[count] = normal[2];
+  distance[count] = away;
+  return count++;
 }
 
 }  // namespace scree::core

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -19,10 +20,15 @@ class WallTouches {
 
   /// All touches nearer to the centres of `rows` than radii * radius + margin.
   void find(const Wall& wall, const BallView& balls, const std::vector<uint32_t>& rows, double radii, double margin);
+  /// All touches nearer to the centre of each row than its reach, m.
+  void find(const Wall& wall, const BallView& balls, const std::vector<uint32_t>& rows,
+            const std::vector<double>& reach);
+  /// Puts a touch behind those that were found, outside the order. Its index.
+  uint32_t add(const std::array<double, 3>& normal, double away);
 
  private:
   void resize(std::size_t touches);
-  void ask(const Wall& wall, std::size_t rows);
+  void ask(const Wall& wall, const std::vector<double>& reach);
   std::vector<double> x_, y_, z_, reach_;
 };
 

@@ -453,7 +453,7 @@ uint64_t Engine::bond(const BondOrder& order, bool lasting) {
   forces_outdated();
   contacts.drop_lists();
   detect();
-  const uint64_t made = contacts.bond(order, balls, cell, team);
+  const uint64_t made = contacts.bond(order, balls, walls, cell, team);
   if (lasting && made > 0) schedule_.begin_anew();
   detect();
   return made;

@@ -122,10 +122,11 @@ void check_words(const SavedContacts& saved, const RuleBook& book, const Archive
   for (const WallList& list : saved.wall_lists) {
     const BoundRule& rule = book.rules[list.rule];
     want(!saved.built || rule.model == nullptr ||
-             (list.state.size() == list.slots.size() * rule.state_words() &&
+             (list.state.size() == list.slots.size() * rule.memory_words(list.bonded) &&
               list.property.size() == list.slots.size() * rule.varying.size()),
          in, "wall_lists/words", "they are not those of the rule's law");
     want(!saved.built || rule.model != nullptr, in, "wall_lists/rule", "a rule without a law has contacts");
+    want(!list.bonded || rule.can_bond(), in, "wall_lists/rule", "the rule's law makes no bonds");
   }
 }
 
@@ -152,16 +153,28 @@ void save_breaks(const Contacts& contacts, ArchiveWriter& out) {
   }
   out.put("bonds/pairs", ids);
   out.put("bonds/breaks", counts);
+  std::vector<uint64_t> walls;
+  for (const auto& [spot, count] : contacts.wall_breaks)
+    walls.insert(walls.end(), {spot.id, spot.wall, spot.patch, count});
+  out.put("bonds/walls", walls);
   out.put("bonds/broken", std::vector<uint64_t>(contacts.broken_bonds.begin(), contacts.broken_bonds.end()));
 }
 
-void read_breaks(const ArchiveReader& in, SavedContacts& saved) {
+void read_breaks(const ArchiveReader& in, std::size_t wall_count, SavedContacts& saved) {
   const auto counts = in.get<uint32_t>("bonds/breaks");
   const auto ids = in.get<uint64_t>("bonds/pairs", 2 * counts.size());
   const auto broken = in.get<uint64_t>("bonds/broken", 2);
   for (std::size_t k = 0; k < counts.size(); ++k) {
     want(ids[2 * k] < ids[2 * k + 1] && counts[k] > 0, in, "bonds/pairs", "a pair or its count makes no sense");
     saved.breaks[{ids[2 * k], ids[2 * k + 1]}] = counts[k];
+  }
+  const auto walls = in.get<uint64_t>("bonds/walls");
+  want(walls.size() % 4 == 0, in, "bonds/walls", "an entry is cut short");
+  for (std::size_t k = 0; k < walls.size(); k += 4) {
+    want(walls[k + 1] < wall_count && walls[k + 2] < no_row && walls[k + 3] > 0 && walls[k + 3] < no_row, in,
+         "bonds/walls", "a wall, a patch or its count makes no sense");
+    saved.wall_breaks[{walls[k], static_cast<uint16_t>(walls[k + 1]), static_cast<uint32_t>(walls[k + 2])}] =
+        static_cast<uint32_t>(walls[k + 3]);
   }
   saved.broken_bonds = {broken[0], broken[1]};
 }
@@ -215,7 +228,7 @@ SavedContacts read_contacts(const ArchiveReader& in, const Balls& balls, const P
     saved.lists.push_back(read_list(in, k, saved.rows, saved.rules.size()));
     check_where(saved.lists[k], k, in, saved.built ? balls.id() : nullptr, cell);
   }
-  read_breaks(in, saved);
+  read_breaks(in, walls, saved);
   saved.wall_lists = read_wall_lists(in, {saved.rows, saved.rules.size(), walls});
   return saved;
 }
@@ -228,6 +241,7 @@ void load_contacts(Contacts& contacts, const ArchiveReader& in, const Balls& bal
        "it holds another number of rules than were set up");
   check_words(saved, contacts.book, in);
   contacts.breaks = std::move(saved.breaks);
+  contacts.wall_breaks = std::move(saved.wall_breaks);
   contacts.broken_bonds = saved.broken_bonds;
   contacts.restore(std::move(saved.lists), std::move(saved.wall_lists), std::move(saved.rows_before), saved.built,
                    balls.size(), team);

@@ -14,6 +14,7 @@ struct SavedContacts {
   std::vector<std::size_t> varying;                   ///< varying words of each rule
   std::vector<TouchList> lists;                       ///< touch lists, then bonded lists
   BreakHistory breaks;
+  WallBreakHistory wall_breaks;
   std::array<uint64_t, 2> broken_bonds{};
   std::vector<WallList> wall_lists;
   std::vector<uint32_t> rows_before;

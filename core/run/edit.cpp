@@ -26,6 +26,13 @@ void put_setting(std::vector<T>& settings, const T& setting) {
     *at = setting;
 }
 
+/// Which pieces lie on each side of an action.
+using Sides = std::array<std::vector<uint8_t>, 2>;
+
+bool across(const Sides& of_a, uint16_t a, const Sides& of_b, uint16_t b) {
+  return (of_a[0][a] != 0 && of_b[1][b] != 0) || (of_a[1][a] != 0 && of_b[0][b] != 0);
+}
+
 Triple triple(const Value& value) {
   Triple out{};
   for (std::size_t k = 0; k < 3 && k < value.numbers.size(); ++k) out[k] = value.numbers[k];
@@ -171,17 +178,21 @@ void Simulation::edit_fix(const FixAction& action) {
 void Simulation::edit_bond(const BondAction& action) {
   BondOrder order{static_cast<uint16_t>(find_rule(rules, precedence, action.rule.text)), action.gap, action.again, {}};
   if (!action.between[0].empty()) {
-    std::array<std::vector<uint8_t>, 2> side;
+    Sides group, wall;
+    bool walls = false;
     for (std::size_t k = 0; k < 2; ++k) {
-      side[k].assign(groups.size(), 0);
+      group[k].assign(groups.size(), 0);
+      wall[k].assign(engine.walls.size(), 0);
       for (const Name& name : action.between[k]) {
         const std::vector<uint8_t> covered = groups.cover(name.text);
-        for (std::size_t leaf = 0; leaf < covered.size(); ++leaf) side[k][leaf] |= covered[leaf];
+        for (std::size_t leaf = 0; leaf < covered.size(); ++leaf) group[k][leaf] |= covered[leaf];
+        for (std::size_t w = 0; w < engine.walls.size(); ++w)
+          wall[k][w] |= name.text == "walls" || name.text == engine.walls[w].name;
+        walls = walls || std::find(wall[k].begin(), wall[k].end(), 1) != wall[k].end();
       }
     }
-    order.chosen = [side](uint16_t a, uint16_t b) {
-      return (side[0][a] != 0 && side[1][b] != 0) || (side[0][b] != 0 && side[1][a] != 0);
-    };
+    order.chosen = [group](uint16_t a, uint16_t b) { return across(group, a, group, b); };
+    if (walls) order.chosen_walls = [group, wall](uint16_t a, uint16_t w) { return across(group, a, wall, w); };
   }
   const uint64_t made = engine.bond(order, true);
   tell("bonded " + std::to_string(made) + " pairs under rule '" + action.rule.text + "'");

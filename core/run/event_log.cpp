@@ -19,13 +19,14 @@ EventLog::EventLog(OutputFiles& files) : files_(&files) {
 void EventLog::take(Engine& engine) {
   if (engine.broken.empty()) return;
   std::string text;
-  if (!begun_) text = "cycle,time,event,mode,rule,id1,id2,x,y,z,energy\n";
+  if (!begun_) text = "cycle,time,event,mode,rule,id1,id2,x,y,z,energy,wall\n";
   begun_ = true;
   for (const BrokenBond& bond : engine.broken)
-    text += fmt::format("{},{},bond_break,{},{},{},{},{},{},{},{}\n", bond.cycle, bond.time,
+    text += fmt::format("{},{},bond_break,{},{},{},{},{},{},{},{},{}\n", bond.cycle, bond.time,
                         modes[bond.what.mode <= 2 ? bond.what.mode : 0],
                         engine.contacts.book.rules[bond.what.rule].name, bond.what.ids.first, bond.what.ids.second,
-                        bond.what.point[0], bond.what.point[1], bond.what.point[2], bond.what.energy);
+                        bond.what.point[0], bond.what.point[1], bond.what.point[2], bond.what.energy,
+                        bond.what.wall < engine.walls.size() ? engine.walls[bond.what.wall].name : "");
   files_->append(file_name, text.data(), text.size());
   engine.broken.clear();
 }

@@ -36,10 +36,16 @@ V separation(const Engine& engine, std::size_t row, uint32_t other, uint32_t ima
   return d;
 }
 
-/// Gaps of the active contacts of a list, in the order of its slots: the pass does not keep them, so the wall is asked.
+/// Gaps of the active contacts of a list, in the order of its slots. The pass keeps only those of bonds, so the wall is
+/// asked.
 std::vector<double> wall_gaps(const Engine& engine, const WallList& list) {
   const Wall& wall = engine.walls[list.wall];
   const double* radius = engine.balls[Column::radius];
+  std::vector<double> gaps(list.slots.size(), 0.0);
+  if (list.bonded) {
+    for (std::size_t k = 0; k < gaps.size(); ++k) gaps[k] = list.bonds[k].distance - radius[list.slots[k].row];
+    return gaps;
+  }
   std::vector<uint32_t> rows;
   for (const WallSlot& slot : list.slots)
     if (rows.empty() || rows.back() != slot.row) rows.push_back(slot.row);
@@ -64,7 +70,6 @@ std::vector<double> wall_gaps(const Engine& engine, const WallList& list) {
     count = wall.touch(static_cast<uint32_t>(n), at[0].data(), at[1].data(), at[2].data(), reach.data(), touches);
     if (count == 0) break;
   }
-  std::vector<double> gaps(list.slots.size(), 0.0);
   for (uint32_t t = 0; t < count; ++t) {
     const auto key = std::pair(rows[ball[t]], patch[t]);
     const auto slot = std::lower_bound(
@@ -190,6 +195,7 @@ void Instant::add_walls(std::size_t index) {
       one.point[c] = report[7 + c];
     }
     one.sliding = report[6] != 0;
+    one.bonded = list.bonded;
     contacts_.push_back(one);
   }
 }

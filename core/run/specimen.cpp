@@ -34,18 +34,17 @@ std::vector<std::size_t> heirs(const SavedContacts& saved, const RuleBook& book)
 std::vector<WallList> carried(SavedContacts& saved, const std::vector<std::size_t>& heir,
                               const std::vector<std::size_t>& wall_index, const Engine& engine) {
   std::vector<WallList> lists;
-  const BallView view(engine.balls);
   for (WallList& list : saved.wall_lists) {
     const std::size_t wall = wall_index[list.wall], rule = heir[list.rule];
     if (wall == no_wall || rule == fresh) continue;
     const BoundRule& law = engine.contacts.book.rules[rule];
-    if (list.state.size() != list.slots.size() * law.state_words()) continue;
+    if (list.state.size() != list.slots.size() * law.memory_words(list.bonded)) continue;
     list.wall = static_cast<uint16_t>(wall);
     list.rule = static_cast<uint16_t>(rule);
     list.property.clear();
     // Right after balls were deleted the rows are still those of before, and births cannot be looked up.
     if (!law.varying.empty() && !saved.rows_before.empty()) continue;
-    renew_wall_list(list, law, view, engine.walls[wall]);
+    renew_wall_list(list, law, engine.balls, engine.walls[wall], engine.contacts.wall_breaks);
     lists.push_back(std::move(list));
   }
   return lists;
@@ -57,6 +56,9 @@ void carry_contacts(Engine& engine, const ArchiveReader& in, const std::vector<s
     periodic = true;  // the state may come from another cell; images are found anew
   SavedContacts saved = read_contacts(in, engine.balls, any_cell, wall_index.size());
   const std::vector<std::size_t> heir = heirs(saved, engine.contacts.book);
+  for (const auto& [spot, count] : saved.wall_breaks)
+    if (const std::size_t wall = wall_index[spot.wall]; wall != no_wall)
+      engine.contacts.wall_breaks[{spot.id, static_cast<uint16_t>(wall), spot.patch}] = count;
   std::vector<WallList> wall_lists = carried(saved, heir, wall_index, engine);
   const std::size_t rules = engine.contacts.book.rules.size();
   std::vector<TouchList> lists(2 * rules);

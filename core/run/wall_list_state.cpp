@@ -1,6 +1,7 @@
 #include "core/run/wall_list_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "core/contact/touch_list.hpp"
@@ -10,9 +11,11 @@ namespace scree::core {
 
 namespace {
 
+using V = std::array<double, 3>;
+
 // Sizes of one list: candidates, slots, state, property.
 constexpr std::size_t sizes_per_list = 4;
-constexpr std::size_t resultant_words = 6;
+constexpr std::size_t resultant_words = 6, bond_words = 7;
 
 /// All lists one after the other, array by array.
 struct Columns {
@@ -20,6 +23,8 @@ struct Columns {
   std::vector<uint16_t> wall, rule;
   std::vector<uint64_t> sizes;
   std::vector<double> normal, dashpot, state, property, resultant;
+  std::vector<uint8_t> bonded;  ///< by list
+  std::vector<double> bond;     ///< of the slots of bonded lists
 };
 
 template <class T>
@@ -41,6 +46,12 @@ Columns columns_of(const std::vector<WallList>& lists) {
       c.slot_patch.push_back(slot.patch);
       append(c.normal, slot.normal);
       c.dashpot.push_back(slot.dashpot);
+    }
+    c.bonded.push_back(list.bonded ? 1 : 0);
+    for (const WallBond& bond : list.bonds) {
+      append(c.bond, bond.foot);
+      append(c.bond, bond.axis);
+      c.bond.push_back(bond.distance);
     }
     append(c.state, list.state);
     append(c.property, list.property);
@@ -74,6 +85,16 @@ Columns read_columns(const ArchiveReader& in) {
   c.slot_patch = in.get<uint32_t>("wall_lists/slot_patch", c.slot_row.size());
   c.normal = in.get<double>("wall_lists/slot_normal", 3 * c.slot_row.size());
   c.dashpot = in.get<double>("wall_lists/slot_dashpot", c.slot_row.size());
+  c.bonded = in.get<uint8_t>("wall_lists/bonded", lists);
+  uint64_t bonds = 0;
+  for (uint64_t k = 0; k < lists; ++k) {
+    want(c.bonded[k] <= 1, in, "wall_lists/bonded", "a flag is neither 0 nor 1");
+    if (c.bonded[k] == 0) continue;
+    want(c.sizes[sizes_per_list * k + 1] <= c.slot_row.size(), in, "wall_lists/sizes",
+         "they are larger than the arrays");
+    bonds += c.sizes[sizes_per_list * k + 1];
+  }
+  c.bond = in.get<double>("wall_lists/bond", bond_words * bonds);
   c.state = in.get<double>("wall_lists/state");
   c.property = in.get<double>("wall_lists/property");
   total(c, 0, c.candidate.size(), in);
@@ -93,6 +114,11 @@ std::vector<T> part(const std::vector<T>& from, std::size_t& at, uint64_t size) 
 void check_list(const WallList& list, const WallListLimits& limits, const ArchiveReader& in) {
   want(list.wall < limits.walls, in, "wall_lists/wall", "a wall does not exist");
   want(list.rule < limits.rules, in, "wall_lists/rule", "a rule does not exist");
+  want(!list.bonded || list.candidates.empty(), in, "wall_lists/bonded", "bonds have candidates");
+  const auto finite = [](const V& v) { return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]); };
+  for (const WallBond& bond : list.bonds)
+    want(finite(bond.foot) && finite(bond.axis) && std::isfinite(bond.distance), in, "wall_lists/bond",
+         "a place is not a finite number");
   const uint64_t first = uint64_t{list.block} * block_rows, last = std::min(limits.rows, first + block_rows);
   want(first < limits.rows, in, "wall_lists/block", "a block does not exist");
   const auto inside = [&](uint32_t row) { return row >= first && row < last; };
@@ -120,6 +146,8 @@ void save_wall_lists(const std::vector<WallList>& lists, ArchiveWriter& out) {
   out.put("wall_lists/slot_patch", c.slot_patch);
   out.put("wall_lists/slot_normal", c.normal);
   out.put("wall_lists/slot_dashpot", c.dashpot);
+  out.put("wall_lists/bonded", c.bonded);
+  out.put("wall_lists/bond", c.bond);
   out.put("wall_lists/state", c.state);
   out.put("wall_lists/property", c.property);
 }
@@ -127,7 +155,7 @@ void save_wall_lists(const std::vector<WallList>& lists, ArchiveWriter& out) {
 std::vector<WallList> read_wall_lists(const ArchiveReader& in, const WallListLimits& limits) {
   const Columns c = read_columns(in);
   std::vector<WallList> lists(c.block.size());
-  std::size_t candidate = 0, slot = 0, state = 0, property = 0;
+  std::size_t candidate = 0, slot = 0, state = 0, property = 0, bond = 0;
   for (std::size_t k = 0; k < lists.size(); ++k) {
     WallList& list = lists[k];
     const uint64_t* sizes = &c.sizes[k * sizes_per_list];
@@ -141,6 +169,11 @@ std::vector<WallList> read_wall_lists(const ArchiveReader& in, const WallListLim
                             c.slot_patch[slot],
                             {c.normal[3 * slot], c.normal[3 * slot + 1], c.normal[3 * slot + 2]},
                             c.dashpot[slot]});
+    list.bonded = c.bonded[k] != 0;
+    for (std::size_t left = list.bonded ? list.slots.size() : 0; left > 0; --left, bond += bond_words)
+      list.bonds.push_back({{c.bond[bond], c.bond[bond + 1], c.bond[bond + 2]},
+                            {c.bond[bond + 3], c.bond[bond + 4], c.bond[bond + 5]},
+                            c.bond[bond + 6]});
     list.state = part(c.state, state, sizes[2]);
     list.property = part(c.property, property, sizes[3]);
     const double* sum = &c.resultant[k * resultant_words];

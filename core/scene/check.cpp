@@ -183,40 +183,34 @@ class Checker {
                                    [&](const Rule* one) { return one->name == bond.rule.text; });
     if (rule == live_.rules.end()) return missing("rule", bond.rule, rule_names());
     for (const auto& side : bond.between)
-      for (const Name& name : side) wants_balls(name);
+      for (const Name& name : side) wants_piece(name);
     const Component* model = (*rule)->none ? nullptr : (*rule)->model.component;
     if (model == nullptr || (model->contact_model().flags & SCREE_CAN_BOND) == 0)
       error(bond.rule.place, "rule '" + bond.rule.text + "' has " +
                                  (model == nullptr ? "no contact model" : "contact model '" + model->name + "'") +
                                  ", which makes no bonds: use contact_bond or parallel_bond");
-    else if (!names_balls_twice(**rule))
-      error(bond.rule.place, "rule '" + bond.rule.text + "' is between balls and walls, which cannot be bonded");
     else if (!bond.between[0].empty() && !sides_meet(**rule, bond.between))
       error(bond.rule.place,
-            "the groups of 'between' never meet under rule '" + bond.rule.text + "': name groups that it is between");
+            "the sides of 'between' never meet under rule '" + bond.rule.text + "': name pieces that it is between");
   }
 
-  bool names_balls_twice(const Rule& rule) const {
-    return std::all_of(rule.between.begin(), rule.between.end(), [&](const std::vector<std::string>& side) {
-      return std::any_of(side.begin(), side.end(),
-                         [&](const std::string& name) { return name != "walls" && !ever_walls_.contains(name); });
-    });
-  }
+  bool is_wall(const std::string& name) const { return name == "walls" || ever_walls_.contains(name); }
 
-  /// Whether one of the groups of a bond may lie on each side of the rule.
-  static bool sides_meet(const Rule& rule, const std::array<std::vector<Name>, 2>& groups) {
-    const auto within = [](const std::string& a, const std::string& b) {
-      return a == b || b == "balls" || a.starts_with(b + ".");
+  /// Whether one of the pieces of a bond may lie on each side of the rule. Walls never meet each other.
+  bool sides_meet(const Rule& rule, const std::array<std::vector<Name>, 2>& sides) const {
+    const auto within = [&](const std::string& a, const std::string& b) {
+      return a == b || (b == "balls" && !is_wall(a)) || (b == "walls" && is_wall(a)) || a.starts_with(b + ".");
     };
-    const auto fits = [&](const std::vector<Name>& side, const std::vector<std::string>& of) {
-      return std::any_of(side.begin(), side.end(), [&](const Name& name) {
-        return std::any_of(of.begin(), of.end(), [&](const std::string& group) {
-          return within(name.text, group) || within(group, name.text);
-        });
-      });
+    const auto meets = [&](const Name& a, const Name& b, const std::string& one, const std::string& other) {
+      return !(is_wall(a.text) && is_wall(b.text)) && (within(a.text, one) || within(one, a.text)) &&
+             (within(b.text, other) || within(other, b.text));
     };
-    const auto& [one, other] = rule.between;
-    return (fits(groups[0], one) && fits(groups[1], other)) || (fits(groups[0], other) && fits(groups[1], one));
+    for (const Name& a : sides[0])
+      for (const Name& b : sides[1])
+        for (const std::string& one : rule.between[0])
+          for (const std::string& other : rule.between[1])
+            if (meets(a, b, one, other) || meets(b, a, one, other)) return true;
+    return false;
   }
   void apply(const SaveAction& save, const Place&) {
     if (!saved_.insert(save.name.text).second)
@@ -234,7 +228,7 @@ class Checker {
 
   void missing(const std::string& what, const Name& name, const std::vector<std::string>& candidates) {
     // A saved state brings balls; walls, rules and processes are this scene's own.
-    if ((open_ && what == "ball set") || name.text.empty()) return;
+    if ((open_ && what.starts_with("ball set")) || name.text.empty()) return;
     const bool gone = ever_walls_.contains(name.text) || ever_balls_.contains(set_of(name.text));
     error(name.place, "no " + what + " '" + name.text + "' at this point of the scene" +
                           (gone ? "; it was deleted before" : "") + suggestion(name.text, candidates));
@@ -250,6 +244,14 @@ class Checker {
     const bool there = live_.balls.contains(set_of(name.text)) || name.text == "balls";
     if (!there) missing("ball set", name, names_of(live_.balls));
     return there;
+  }
+
+  void wants_piece(const Name& name) {
+    const std::string& text = name.text;
+    if (live_.walls.contains(text) || live_.balls.contains(set_of(text)) || text == "balls" || text == "walls") return;
+    std::vector<std::string> names = names_of(live_.balls);
+    for (const auto& [wall, use] : live_.walls) names.push_back(wall);
+    missing("ball set or wall", name, names);
   }
 
   /// `walls.NAME...` can be checked here; what processes publish is known at set-up.

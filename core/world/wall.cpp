@@ -64,6 +64,10 @@ std::array<double, 3> Wall::from_frame(const V& direction) const {
   return turned() ? rotated(turn, 1, direction) : direction;
 }
 
+std::array<double, 3> Wall::direction_to_frame(const V& direction) const {
+  return turned() ? rotated(turn, -1, direction) : direction;
+}
+
 void Wall::drift(double dt) {
   for (int k = 0; k < 3; ++k) centre[static_cast<std::size_t>(k)] += velocity[static_cast<std::size_t>(k)] * dt;
   const double rate = size(spin);

@@ -37,6 +37,8 @@ struct Wall {
   std::array<double, 3> to_frame(const std::array<double, 3>& point) const;
   /// A direction of the geometry's frame in the scene's.
   std::array<double, 3> from_frame(const std::array<double, 3>& direction) const;
+  /// A direction of the scene's frame in the geometry's.
+  std::array<double, 3> direction_to_frame(const std::array<double, 3>& direction) const;
   /// Moves by one step: exact rotation, so that a spinning wall does not grow.
   void drift(double dt);
   /// Upper bound of how far a point within `size` of the centre moves in dt, m.

@@ -23,11 +23,12 @@ struct Spec {
 
 /// Network `index`: two to six balls of 5 to 15 mm, each touching one or two that were there before, perhaps on a
 /// floor. Every pair has a stiffness of its own, over twelve decades where `decades` says so, and shear between none
-/// and 1.5. With bonds each pair of balls has a cement disc of its own size and stiffness too, sometimes alone.
+/// and 1.5. With bonds each pair of balls has a cement disc of its own size and stiffness too, sometimes alone; with a
+/// glued floor so have those of a ball on the floor.
 class Maker {
  public:
-  Maker(uint64_t index, double decades, bool bonds)
-      : random_(64, "networks"), index_(index), decades_(decades), bonds_(bonds) {}
+  Maker(uint64_t index, double decades, bool bonds, bool glued_floor = false)
+      : random_(64, "networks"), index_(index), decades_(decades), bonds_(bonds), glued_floor_(glued_floor) {}
 
   Spec make(const TemporaryFolder& folder) {
     const std::size_t n = 2 + static_cast<std::size_t>(draw() * 5);
@@ -44,7 +45,8 @@ class Maker {
         rules += bonds_ ? bonded_rule(name, other) : rule(name, other);
         if (bonds_) glue += (glue.empty() ? "" : ", ") + ("bond: {rule: " + name + "_" + other + "}");
       }
-      if (floor) rules += rule(name, "floor");
+      if (floor) rules += glued_floor_ ? bonded_rule(name, "floor") : rule(name, "floor");
+      if (floor && glued_floor_) glue += (glue.empty() ? "" : ", ") + ("bond: {rule: " + name + "_floor}");
     }
     return {"scree: 1\n" +
                 std::string(floor ? "walls:\n  floor: {wall: plane, point: [0, 0, 0], normal: [0, 0, 1]}\n" : "") +
@@ -115,7 +117,7 @@ class Maker {
   const Random random_;
   const uint64_t index_;
   const double decades_;
-  const bool bonds_;
+  const bool bonds_, glued_floor_;
   uint64_t next_ = 0;
   std::vector<Eigen::Vector3d> at_;
   std::vector<double> radius_;

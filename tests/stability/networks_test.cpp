@@ -14,12 +14,12 @@ using namespace scree::core;
 
 namespace {
 
-void look_at(uint64_t count, const std::string& name) {
+void look_at(uint64_t count, const std::string& name, bool glued_floor = false) {
   lab::Lab here;
   std::vector<double> ratios;
   const auto begin = std::chrono::steady_clock::now();
   for (uint64_t index = 0; index < count; ++index) {
-    networks::Maker maker(index, index % 2 == 0 ? 12 : 1, index % 3 == 2);
+    networks::Maker maker(index, index % 2 == 0 ? 12 : 1, index % 3 == 2, glued_floor);
     const networks::Spec spec = maker.make(here.folder());
     const auto simulation = here.make(spec.scene);
     simulation->engine.forces();
@@ -52,6 +52,10 @@ void look_at(uint64_t count, const std::string& name) {
 }  // namespace
 
 TEST_CASE("64 OK: the step of small networks is certified and sharp") { look_at(200, "64"); }
+
+TEST_CASE("64 OK: the step of small networks is certified and sharp where the floor holds them by bonds") {
+  look_at(100, "64, glued floor", true);
+}
 
 TEST_CASE("64 OK: 10 000 small networks", "[.][verify]") { look_at(10000, "64 verify"); }
 
