@@ -84,7 +84,9 @@ bool geometry(WallList& list, const WallPass& pass, const WallTouches& touches, 
   const bool spin = b.wx != nullptr && !pass.rule->normal_only();
   bool beyond = false;
   const double half = 0.5 * pass.dt;
+  const bool turns = dot(wall.spin, wall.spin) > 0;
   const auto turned_back = [&](const V& v) {
+    if (!turns) return v;
     const V way = cross(wall.spin, v);
     return V{v[0] - half * way[0], v[1] - half * way[1], v[2] - half * way[2]};
   };
