@@ -182,14 +182,15 @@ class Checker {
     const auto rule = std::find_if(live_.rules.begin(), live_.rules.end(),
                                    [&](const Rule* one) { return one->name == bond.rule.text; });
     if (rule == live_.rules.end()) return missing("rule", bond.rule, rule_names());
+    bool known = true;
     for (const auto& side : bond.between)
-      for (const Name& name : side) wants_piece(name);
+      for (const Name& name : side) known = wants_piece(name) && known;
     const Component* model = (*rule)->none ? nullptr : (*rule)->model.component;
     if (model == nullptr || (model->contact_model().flags & SCREE_CAN_BOND) == 0)
       error(bond.rule.place, "rule '" + bond.rule.text + "' has " +
                                  (model == nullptr ? "no contact model" : "contact model '" + model->name + "'") +
                                  ", which makes no bonds: use contact_bond or parallel_bond");
-    else if (!bond.between[0].empty() && !sides_meet(**rule, bond.between))
+    else if (known && !bond.between[0].empty() && !sides_meet(**rule, bond.between))
       error(bond.rule.place,
             "the sides of 'between' never meet under rule '" + bond.rule.text + "': name pieces that it is between");
   }
@@ -246,12 +247,14 @@ class Checker {
     return there;
   }
 
-  void wants_piece(const Name& name) {
+  bool wants_piece(const Name& name) {
     const std::string& text = name.text;
-    if (live_.walls.contains(text) || live_.balls.contains(set_of(text)) || text == "balls" || text == "walls") return;
+    if (live_.walls.contains(text) || live_.balls.contains(set_of(text)) || text == "balls" || text == "walls")
+      return true;
     std::vector<std::string> names = names_of(live_.balls);
     for (const auto& [wall, use] : live_.walls) names.push_back(wall);
     missing("ball set or wall", name, names);
+    return false;
   }
 
   /// `walls.NAME...` can be checked here; what processes publish is known at set-up.
