@@ -131,9 +131,19 @@ SCREE_STAGE bool geometry(const BallView& b, uint32_t n, double dt, double overl
       const double wix = wx[i], wiy = wy[i], wiz = wz[i], wjx = wx[j], wjy = wy[j], wjz = wz[j];
       // Surface velocity of both pieces at the contact point; the unsigned normal is sign times (x, y, z).
       const double sx = wix * arm_i + wjx * arm_j, sy = wiy * arm_i + wjy * arm_j, sz = wiz * arm_i + wjz * arm_j;
-      ux -= sign * (sy * z - sz * y);
-      uy -= sign * (sz * x - sx * z);
-      uz -= sign * (sx * y - sy * x);
+      double ax = sign * x, ay = sign * y, az = sign * z;
+      if constexpr (Turn) {
+        // Velocities are those of half a step back, and so must be the arms: with those of now a bonded body that
+        // turns about an axis oblique to a bond creeps by (n.w) w dt/2.
+        const double hx = px - 0.5 * dt * cx, hy = py - 0.5 * dt * cy, hz = pz - 0.5 * dt * cz;
+        const double half = hx * hx + hy * hy + hz * hz, back = half > 0 ? 1 / std::sqrt(half) : 0.0;
+        ax = hx * back;
+        ay = hy * back;
+        az = hz * back;
+      }
+      ux -= sy * az - sz * ay;
+      uy -= sz * ax - sx * az;
+      uz -= sx * ay - sy * ax;
       s.wx[k] = sign * (wjx - wix);
       s.wy[k] = sign * (wjy - wiy);
       s.wz[k] = sign * (wjz - wiz);

@@ -118,8 +118,15 @@ void Simulation::add_process(const ProcessUse& use) {
 
 void Simulation::bind_rules() {
   RuleBook& book = engine.contacts.book;
+  const std::size_t known = book.rules.size();
   book.rules.resize(rules.size());
-  for (std::size_t k = 0; k < rules.size(); ++k) book.rules[k] = bind_rule(*this, rules[k]);
+  for (std::size_t k = 0; k < rules.size(); ++k) {
+    BoundRule now = bind_rule(*this, rules[k]);
+    const bool other_words = k < known && now.varying != book.rules[k].varying;
+    book.rules[k] = std::move(now);
+    // Balls of another size may make a word vary that did not; the contacts that there are then need it too.
+    if (other_words) engine.contacts.renew(k, engine.balls, engine.walls);
+  }
   fill_tables();
 }
 
