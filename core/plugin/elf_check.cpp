@@ -156,7 +156,10 @@ class ElfFile {
     for (uint64_t k = 1; k < count; ++k) {
       const auto symbol = read<Elf64_Sym>(table + k * sizeof(Elf64_Sym));
       if (symbol.st_shndx == SHN_UNDEF || ELF64_ST_BIND(symbol.st_info) == STB_LOCAL) continue;
-      f(symbol, std::string(text(symbol.st_name)));
+      const std::string name = text(symbol.st_name);
+      // A library built for the address sanitizer marks each symbol it exports.
+      if (name.starts_with("__odr_asan.")) continue;
+      f(symbol, name);
     }
   }
 
@@ -168,8 +171,6 @@ class ElfFile {
         refuse("the variable '" + name +
                "' would be shared with other plug-ins (unique binding): build with hidden visibility, as "
                "scree_add_plugin() does");
-      // A library built for the address sanitizer marks each symbol it exports.
-      if (name == "__odr_asan.scree_plugin") return;
       if (name != "scree_plugin")
         refuse("it exports '" + name +
                "' besides scree_plugin, which could replace code of other libraries: build with hidden visibility, as "

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <stdexcept>
 
 namespace scree::core::vet {
@@ -77,10 +78,20 @@ SCREE_READS_SEGMENTS MemoryPicture::MemoryPicture(const LoadedObject& object) : 
 }
 
 SCREE_READS_SEGMENTS std::size_t MemoryPicture::changed() const {
+  using Word = uint64_t __attribute__((may_alias, aligned(1)));
   std::size_t count = 0;
   for (std::size_t r = 0; r < ranges_.size(); ++r) {
-    const volatile std::byte* now = ranges_[r].data();
-    for (std::size_t k = 0; k < ranges_[r].size(); ++k) count += now[k] != bytes_[r][k];
+    const std::byte *now = ranges_[r].data(), *then = bytes_[r].data();
+    const std::size_t size = bytes_[r].size();
+    for (std::size_t k = 0; k < size;) {
+      const bool whole = k + sizeof(Word) <= size;
+      if (whole && *reinterpret_cast<const volatile Word*>(now + k) == *reinterpret_cast<const Word*>(then + k)) {
+        k += sizeof(Word);
+        continue;
+      }
+      for (const std::size_t end = whole ? k + sizeof(Word) : size; k < end; ++k)
+        count += *static_cast<const volatile std::byte*>(now + k) != then[k];
+    }
   }
   return count;
 }
