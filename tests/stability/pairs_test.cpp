@@ -123,7 +123,7 @@ balls:
   cluster: {generator: random, box: [[0, 0, 0], [0.2, 0.2, 0.13]], radius: [6 mm, 8 mm], count: 1000, density: 2600, velocity: [0, 0.5, -2]}
   dust: {generator: random, box: [[0.05, 0.05, 0], [0.15, 0.15, 0.13]], radius: 1 mm, count: 900, density: 2600, velocity: [0.5, 0, -4]}
   sparse: {generator: random, box: [[-5, -5, 1], [5, 5, 9]], radius: [5 mm, 8 mm], count: 80, density: 2600}
-  escaping: {generator: random, box: [[0, 0, 0.4], [0.2, 0.2, 0.6]], radius: 4 mm, count: 20, density: 2600, velocity: [40, 20, 90]}
+  escaping: {generator: random, box: [[0, 0, 0.4], [0.2, 0.2, 0.6]], radius: 4 mm, count: 20, density: 2600, velocity: [10, 5, 22]}
 contacts:
   - {name: all, between: [balls, [balls, walls]], model: linear, kn: 1e4, ks: 5e3, fric: 0.3, dp_nratio: 0.1}
 processes:
