@@ -156,7 +156,7 @@ class ElfFile {
     for (uint64_t k = 1; k < count; ++k) {
       const auto symbol = read<Elf64_Sym>(table + k * sizeof(Elf64_Sym));
       if (symbol.st_shndx == SHN_UNDEF || ELF64_ST_BIND(symbol.st_info) == STB_LOCAL) continue;
-      const std::string name = text(symbol.st_name);
+      const std::string name(text(symbol.st_name));
       // A library built for the address sanitizer marks each symbol it exports.
       if (name.starts_with("__odr_asan.")) continue;
       f(symbol, name);
