@@ -87,17 +87,27 @@ void bounces(int count, const std::string& name) {
 }
 
 /// From four radii under 10 g: a flight is long enough for the automatic step to rise, and each impact lowers it again.
-void controlled(int count, const std::string& name) {
-  const Fall fall{98.1, 0.04, 1e8};
+/// How far one run strays is chance, as every impact meets another phase of the step; so several starts are compared,
+/// by the root of the mean square of the largest change of energy.
+void controlled(int starts, int count, const std::string& name) {
   for (const std::string head : {"", "timestep: accurate\n"}) {
-    const Bounced automatic = bounce(fall, count, head), fixed = bounce(fall, count, given(automatic.most));
-    const std::string share =
-        lab::number(automatic.least / fall.limit()) + " to " + lab::number(automatic.most / fall.limit());
-    INFO(head << " " << share << " of the limit: " << text(automatic) << "; fixed: " << text(fixed));
-    CHECK(automatic.worst < 2 * fixed.worst);
-    lab::measured(name + (head.empty() ? "" : " accurate"), std::to_string(count) + " bounces at " + share +
-                                                                " of the limit: " + text(automatic) +
-                                                                "; fixed: " + text(fixed));
+    double automatic = 0, fixed = 0, least = 1, most = 0;
+    for (int k = 0; k < starts; ++k) {
+      const Fall fall{98.1, 0.04 * (1 + 0.01 * k), 1e8};
+      const Bounced free = bounce(fall, count, head);
+      automatic += free.worst * free.worst / starts;
+      fixed += std::pow(bounce(fall, count, given(free.most)).worst, 2) / starts;
+      least = std::min(least, free.least / fall.limit());
+      most = std::max(most, free.most / fall.limit());
+    }
+    automatic = std::sqrt(automatic);
+    fixed = std::sqrt(fixed);
+    const std::string said = std::to_string(starts) + " starts, " + std::to_string(count) + " bounces at " +
+                             lab::number(least) + " to " + lab::number(most) + " of the limit: energy within " +
+                             lab::number(automatic) + ", fixed " + lab::number(fixed);
+    INFO(said);
+    CHECK(automatic < 2 * fixed);
+    lab::measured(name + (head.empty() ? "" : " accurate"), said);
   }
 }
 
@@ -204,9 +214,9 @@ void orbit(uint64_t cycles, const std::string& name) {
 TEST_CASE("33 OK: a Hertz ball keeps its energy over 300 bounces") { bounces(300, "33"); }
 TEST_CASE("33 OK: the same over 1e4 bounces", "[.][verify]") { bounces(10000, "33 verify"); }
 TEST_CASE("34 OK: under the automatic step it drifts no more than twice as far as at a fixed one") {
-  controlled(300, "34");
+  controlled(12, 100, "34");
 }
-TEST_CASE("34 OK: the same over 1e4 bounces", "[.][verify]") { controlled(10000, "34 verify"); }
+TEST_CASE("34 OK: the same over 2000 bounces", "[.][verify]") { controlled(12, 2000, "34 verify"); }
 TEST_CASE("29 OK: a ball that spins at 1e6 rad/s keeps every bit of its spin for 1e6 cycles") { spin(1000000, "29"); }
 TEST_CASE("29 OK: the same for 1e8 cycles", "[.][verify]") { spin(100000000, "29 verify"); }
 TEST_CASE("32 OK: a cradle of five keeps its energy over 1000 impacts") { cradle(1000, "32"); }
