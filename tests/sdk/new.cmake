@@ -21,8 +21,8 @@ scree_test_new(wall round_plate clang++)
 
 file(GLOB_RECURSE scenes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.yaml ${PROJECT_SOURCE_DIR}/tests/scenes/*.yaml
      ${PROJECT_SOURCE_DIR}/tests/peers/scree/*.yaml)
-# Scenes of plug-ins from outside need a schema that knows these.
-list(FILTER scenes EXCLUDE REGEX "/examples/plugins/")
+# Scenes of plug-ins from outside need a schema that knows these; what scenes include is no scene.
+list(FILTER scenes EXCLUDE REGEX "/examples/plugins/|/parts/")
 add_test(NAME "sdk: the schema accepts every scene of the project"
          COMMAND ${SCREE_PYTHON} ${CMAKE_CURRENT_LIST_DIR}/validate.py
                  ${PROJECT_BINARY_DIR}/${CMAKE_INSTALL_DATADIR}/scree/scree.schema.json accepts ${scenes})

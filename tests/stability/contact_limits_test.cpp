@@ -173,7 +173,7 @@ walls:
 balls:
   smooth: {generator: random, box: [[0, 0, 0], [0.1, 0.1, 0.1]], radius: [4 mm, 5 mm], count: 400, density: 2600,
            velocity: [0.3, 0, -2], spin: [1.1, -2.3, 0.7]}
-  rough: {generator: lattice, kind: sc, radius: 5 mm, box: [[0.3, 0, 0], [0.32, 0.02, 0.02]], density: 2600}
+  rough: {generator: lattice, kind: sc, radius: 5 mm, box: [[3, 0, 0], [3.02, 0.02, 0.02]], density: 2600}
 contacts:
   - {name: slick, between: [smooth, [smooth, floor]], model: linear, kn: 1e5, ks: 5e4, fric: 0}
   - {name: grip, between: [rough, [rough, smooth, floor]], model: linear, kn: 1e5, ks: 5e4, fric: 0.5}

@@ -1,8 +1,3 @@
 #pragma once
-// Catch2 2.x and 3.x behind one include.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Approx;
-#else
+// What tests include for Catch2 2.x, which Debian 12 packages.
 #include <catch2/catch.hpp>
-#endif
