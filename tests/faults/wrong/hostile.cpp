@@ -21,7 +21,7 @@ volatile int counted = 0;
 int* volatile nowhere = nullptr;
 
 [[gnu::noinline]] void never_return() {
-  for (;;) counted = counted + 1;
+  for (;;) counted = counted ^ 1;
 }
 [[gnu::noinline]] int fill_stack(int depth) {
   volatile char frame[4096];
