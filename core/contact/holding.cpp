@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/array.hpp"
+#include "core/contact/ball_block.hpp"
 
 namespace scree::core {
 
@@ -76,34 +77,18 @@ void Question::fold(std::size_t block) {
   });
 }
 
-// Cholesky without roots: positive pivots tell.
 bool Question::bears(const Sum& s, double share) const {
   const float *p = s.moved(), *t = s.turned(), *m = s.mixed();
-  double a[6][6] = {{p[0]},
-                    {p[1], p[2]},
-                    {p[3], p[4], p[5]},
-                    {0, -m[2], m[1], t[0]},
-                    {m[2], 0, -m[0], t[1], t[2]},
-                    {-m[1], m[0], 0, t[3], t[4], t[5]}};
+  Block b;
+  b << p[0], p[1], p[3], 0, m[2], -m[1],  //
+      p[1], p[2], p[4], -m[2], 0, m[0],   //
+      p[3], p[4], p[5], m[1], -m[0], 0,   //
+      0, -m[2], m[1], t[0], t[1], t[3],   //
+      m[2], 0, -m[0], t[1], t[2], t[4],   //
+      -m[1], m[0], 0, t[3], t[4], t[5];
   const double limit = share * (1 - rounding * (1 + static_cast<double>(s.count())));
   // Where no row of the block outweighs the limit no eigenvalue does.
-  double most = 0;
-  for (int r = 0; r < 6; ++r) {
-    double row = 0;
-    for (int c = 0; c < 6; ++c) row += std::fabs(c <= r ? a[r][c] : a[c][r]);
-    most = row > most ? row : most;
-  }
-  if (most < limit) return true;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c <= r; ++c) a[r][c] = (r == c ? limit : 0.0) - a[r][c];
-  for (int c = 0; c < 6; ++c) {
-    if (!(a[c][c] > 0)) return false;
-    for (int r = c + 1; r < 6; ++r) {
-      const double factor = a[r][c] / a[c][c];
-      for (int q = r; q < 6; ++q) a[q][r] -= factor * a[q][c];
-    }
-  }
-  return true;
+  return b.cwiseAbs().rowwise().sum().maxCoeff() < limit || stable(b, Block::Zero(), 1, limit);
 }
 
 bool Question::bears(std::size_t block, double share) const {
