@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/cycle/engine.hpp"
 #include "core/cycle/impact_share.hpp"
@@ -55,21 +56,25 @@ double Engine::exact_travel() {
   return std::sqrt(square);
 }
 
-void Engine::detect() {
-  if (!contacts.built()) return rebuild();
-  // Where pieces may come so far in the coming cycle that a contact would be born deep, they must be listed when its
-  // step is chosen: lists are then rebuilt a cycle ahead.
+// How far balls and walls may come in the coming cycle, m, where that is so far that a contact could be born deep: what
+// they meet must then be listed when the step is chosen, so lists are made a cycle ahead. A user's step is not chosen.
+std::pair<double, double> Engine::coming() const {
+  if (!step.automatic()) return {0, 0};
   double balls_come = 0, walls_come = 0;
-  // After an edit what the last motion saw is out of date.
   for (const MotionResult& result : motion_) balls_come = std::max(balls_come, result.fastest);
+  // After an edit what the last motion saw is out of date.
   if (motion_.empty() || clock.dt_back == 0) balls_come = fastest_ball();
   balls_come *= clock.dt;
   for (const Wall& wall : walls) walls_come = std::max(walls_come, wall.travel(clock.dt, extent_));
-  const bool far = step.automatic() && balls_come + std::max(balls_come, walls_come) > birth_depth * least_radius_;
-  if (!far) balls_come = walls_come = 0;
-  const auto used_up = [&] {
-    const double ball = ball_travel_ + balls_come, wall = wall_travel_ + walls_come;
-    return ball + std::max(ball, wall) > skin_.width();
+  if (balls_come + std::max(balls_come, walls_come) <= birth_depth * least_radius_) return {0, 0};
+  return {balls_come, walls_come};
+}
+
+void Engine::detect() {
+  if (!contacts.built()) return rebuild();
+  const auto [balls_come, walls_come] = coming();
+  const auto used_up = [&, ball = balls_come, wall = walls_come] {
+    return ball_travel_ + ball + std::max(ball_travel_ + ball, wall_travel_ + wall) > skin_.width();
   };
   if (used_up()) {
     ball_travel_ = exact_travel();

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -132,6 +133,7 @@ class Engine {
   Loop loop() const;
   void restore(const Loop& loop);
   void detect();  ///< rebuilds when the skin is used up
+  std::pair<double, double> coming() const;
 
  private:
   void rebuild();

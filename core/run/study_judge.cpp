@@ -120,23 +120,34 @@ void promise(StudyNorm& norm, const Horizon& horizon) {
   norm.most_order = horizon.dashpots ? 1 : horizon.impacts ? 2.5 : 2;
 }
 
+// The square root of a mean of squares, weighed by the masses of the balls.
+template <class Square>
+double mean_over_mass(const Horizon& horizon, std::size_t balls, Square square) {
+  double sum = 0, mass = 0;
+  for (double one : horizon.mass) mass += one;
+  for (std::size_t k = 0; k < balls; ++k) sum += horizon.mass[k] * square(k);
+  return std::sqrt(sum / mass);
+}
+
 StudyNorm trajectory(const Study& study, const Horizon& horizon, const PeriodicCell& cell) {
   StudyNorm norm;
   norm.name = "trajectory";
   norm.trajectory = true;
   promise(norm, horizon);
   Measured m;
-  double mass = 0;
-  for (double one : horizon.mass) mass += one;
-  m.distance = [&, mass](const Values& a, const Values& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size() && k < b.size(); ++k) {
-      const int axis = static_cast<int>(k % 3);
-      double away = std::fabs(a[k] - b[k]);
-      if (cell.periodic[axis]) away = std::min(away, std::fabs(away - cell.length(axis)));
-      sum += horizon.mass[k / 3] * away * away;
-    }
-    return std::sqrt(sum / mass) / horizon.radius;
+  m.distance = [&](const Values& a, const Values& b) {
+    return mean_over_mass(horizon, std::min(a.size(), b.size()) / 3,
+                          [&](std::size_t k) {
+                            double square = 0;
+                            for (int axis = 0; axis < 3; ++axis) {
+                              const std::size_t at = 3 * k + static_cast<std::size_t>(axis);
+                              double away = std::fabs(a[at] - b[at]);
+                              if (cell.periodic[axis]) away = std::min(away, std::fabs(away - cell.length(axis)));
+                              square += away * away;
+                            }
+                            return square;
+                          }) /
+           horizon.radius;
   };
   double travel = 0;
   for (const StudyPoint& point : study.points) {
@@ -168,15 +179,11 @@ std::optional<StudyNorm> rotation(const Study& study, const Horizon& horizon) {
   norm.relative = false;
   promise(norm, horizon);
   Measured m;
-  double mass = 0;
-  for (double one : horizon.mass) mass += one;
-  m.distance = [&, mass](const Values& a, const Values& b) {
-    double sum = 0;
-    for (std::size_t k = 0; k + 3 < a.size() && k + 3 < b.size(); k += 4) {
-      const double angle = angle_between(&a[k], &b[k]);
-      sum += horizon.mass[k / 4] * angle * angle;
-    }
-    return std::sqrt(sum / mass);
+  m.distance = [&](const Values& a, const Values& b) {
+    return mean_over_mass(horizon, std::min(a.size(), b.size()) / 4, [&](std::size_t k) {
+      const double angle = angle_between(&a[4 * k], &b[4 * k]);
+      return angle * angle;
+    });
   };
   Values still(4 * horizon.mass.size(), 0.0);
   for (std::size_t k = 0; k < still.size(); k += 4) still[k] = 1;

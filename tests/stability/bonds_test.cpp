@@ -2,7 +2,7 @@
 #include <chrono>
 
 #include "core/base/isa.hpp"
-#include "core/run/state.hpp"
+#include "stability/breaking.hpp"
 #include "stability/lab.hpp"
 #include "support/catch.hpp"
 
@@ -32,13 +32,8 @@ std::unique_ptr<Simulation> begin(lab::Lab& lab, unsigned threads, int isa = 0) 
   return simulation;
 }
 
-using Log = std::vector<std::pair<uint64_t, IdPair>>;
-Log log_of(const Engine& engine) {
-  Log log;
-  for (const BrokenBond& bond : engine.broken) log.emplace_back(bond.cycle, bond.what.ids);
-  return log;
-}
-
+using breaking::Log;
+using breaking::log_of;
 constexpr uint64_t cycles = 600;
 
 }  // namespace
@@ -66,30 +61,9 @@ TEST_CASE("39 OK: the same bonds break in the same cycles on any number of threa
 
 TEST_CASE("D64 OK: a run restarted while bonds break goes on with the same bits and the same energy account") {
   lab::Lab here;
-  const auto whole = begin(here, 1);
-  lab::run(*whole, cycles);
-  auto simulation = begin(here, 1);
-  Log log;
-  const std::string path = here.folder() / "state.scree";
-  for (unsigned part = 0; part < 60; ++part) {
-    lab::run(*simulation, cycles / 60);
-    for (const auto& entry : log_of(simulation->engine)) log.push_back(entry);
-    {
-      ArchiveWriter out(path);
-      save_state(*simulation, out);
-      REQUIRE(out.commit());
-    }
-    const ArchiveReader in(path);
-    simulation = std::make_unique<Simulation>(saved_scene(in, here.catalogue()), here.catalogue(), 1 + part % 3, 0);
-    load_state(*simulation, in);
-  }
-  simulation->engine.forces();
-  CHECK(log == log_of(whole->engine));
-  CHECK(simulation->engine.state_hash() == whole->engine.state_hash());
-  CHECK(simulation->engine.contacts.breaks == whole->engine.contacts.breaks);
-  const StoredEnergy one = simulation->engine.stored_energy(), other = whole->engine.stored_energy();
-  for (const std::string& term : EnergyBalance::terms())
-    CHECK(simulation->engine.ledger.value(term, one) == whole->engine.ledger.value(term, other));
+  const Log log = breaking::same_across_restarts(
+      here, [&] { return begin(here, 1); }, cycles, 60, 3);
+  CHECK(log.size() > 40);
   lab::measured("D64", "60 restarts on 1 to 3 threads, " + std::to_string(log.size()) + " breaks, same bits");
 }
 

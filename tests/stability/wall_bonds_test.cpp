@@ -1,6 +1,7 @@
 // Cases 39, D64 for bonds with walls: the same on any number of threads and instruction set, and across restarts.
 #include "core/base/isa.hpp"
 #include "core/run/state.hpp"
+#include "stability/breaking.hpp"
 #include "stability/lab.hpp"
 #include "support/catch.hpp"
 
@@ -38,13 +39,8 @@ std::unique_ptr<Simulation> begin(lab::Lab& lab, unsigned threads, int isa = 0) 
   return simulation;
 }
 
-using Log = std::vector<std::tuple<uint64_t, IdPair, uint16_t, uint8_t, double>>;
-Log log_of(const Engine& engine) {
-  Log log;
-  for (const BrokenBond& bond : engine.broken)
-    log.emplace_back(bond.cycle, bond.what.ids, bond.what.wall, bond.what.mode, bond.what.energy);
-  return log;
-}
+using breaking::Log;
+using breaking::log_of;
 std::size_t of_walls(const Log& log) {
   std::size_t count = 0;
   for (const auto& entry : log) count += std::get<1>(entry).second == 0;
@@ -87,32 +83,9 @@ TEST_CASE("39 OK: the same bonds with walls break in the same cycles on any numb
 
 TEST_CASE("D64 OK: a run restarted while bonds with walls break goes on with the same bits") {
   lab::Lab here;
-  const auto whole = begin(here, 1);
-  lab::run(*whole, cycles);
-  auto simulation = begin(here, 1);
-  Log log;
-  const std::string path = here.folder() / "state.scree";
-  for (unsigned part = 0; part < 30; ++part) {
-    lab::run(*simulation, cycles / 30);
-    for (const auto& entry : log_of(simulation->engine)) log.push_back(entry);
-    {
-      ArchiveWriter out(path);
-      save_state(*simulation, out);
-      REQUIRE(out.commit());
-    }
-    const ArchiveReader in(path);
-    simulation = std::make_unique<Simulation>(saved_scene(in, here.catalogue()), here.catalogue(), 1 + part % 4, 0);
-    load_state(*simulation, in);
-  }
-  simulation->engine.forces();
+  const Log log = breaking::same_across_restarts(
+      here, [&] { return begin(here, 1); }, cycles, 30, 4);
   CHECK(of_walls(log) > 40);
-  CHECK(log == log_of(whole->engine));
-  CHECK(simulation->engine.state_hash() == whole->engine.state_hash());
-  CHECK(simulation->engine.contacts.wall_breaks == whole->engine.contacts.wall_breaks);
-  CHECK(simulation->engine.contacts.bonded() == whole->engine.contacts.bonded());
-  const StoredEnergy one = simulation->engine.stored_energy(), other = whole->engine.stored_energy();
-  for (const std::string& term : EnergyBalance::terms())
-    CHECK(simulation->engine.ledger.value(term, one) == whole->engine.ledger.value(term, other));
 }
 
 TEST_CASE("a specimen keeps the bonds with its walls, also where the rules come in another order") {
