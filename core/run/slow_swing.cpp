@@ -1,10 +1,11 @@
 #include "core/run/slow_swing.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -234,12 +235,6 @@ double Swing::square() {
   return values.info() == Eigen::Success ? std::max(0.0, values.eigenvalues()[0]) : 0.0;
 }
 
-std::string number(double value) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
-}
-
 }  // namespace
 
 SlowSwing slow_swing(Engine& engine) {
@@ -264,10 +259,11 @@ std::string slow_bonds(Engine& engine) {
   if (swing.square == 0) return "";
   const double cycles = 2 * std::numbers::pi / std::sqrt(swing.square) / engine.clock.dt;
   if (!(cycles > slow)) return "";
-  return "the body of " + std::to_string(swing.balls) + " bonded balls that ends at ball " + std::to_string(swing.id) +
-         " is " + std::to_string(swing.length) + " bonds long, and its slowest swing takes at least " + number(cycles) +
-         " cycles: to come to rest takes several swings, so give it fewer and larger balls along its length, or judge "
-         "it before it rests";
+  return fmt::format(
+      "the body of {} bonded balls that ends at ball {} is {} bonds long, and its slowest swing takes at least {:.2g} "
+      "cycles: to come to rest takes several swings, so give it fewer and larger balls along its length, or judge it "
+      "before it rests",
+      swing.balls, swing.id, swing.length, cycles);
 }
 
 }  // namespace scree::core

@@ -236,8 +236,7 @@ class Studying {
     quick_time_ = share;
     study_.remarks.push_back(
         fmt::format("A quick study compares the energy balance alone, and over the first {:.3g} s of the scene{}: two "
-                    "per cent of its "
-                    "time or 500 steps, whichever is longer. What happens later it cannot know.",
+                    "per cent of its time or 500 steps, whichever is longer. What happens later it cannot know.",
                     share, whole > 0 ? fmt::format(" of {:.3g} s", whole) : ""));
   }
 
@@ -253,7 +252,7 @@ class Studying {
     if (options_.quick) {
       if (horizon_.usual_step == 0)
         study_.remarks.push_back(
-            "Nothing touched in the part of the scene that was looked at, so this study says nothing of contacts: "
+            "Nothing touched in the part of the scene that was looked at, so this study says nothing of contacts; "
             "leave "
             "out --quick.");
       return;
