@@ -51,9 +51,8 @@ StepBound Engine::estimate() {
   for (const Wall& wall : walls) walls_move = std::max(walls_move, wall.travel(clock.dt, extent_));
   const double ball_moves = fastest_ball() * clock.dt;
   const double used = std::max(2 * ball_travel_, ball_travel_ + wall_travel_);
-  NetworkQuery query =
-      schedule_.plan(clock.cycle, {std::max(2 * ball_moves, ball_moves + walls_move),
-                                   std::clamp(skin_.width() - used, 0.0, 2 * skin_.narrow()), least_radius_});
+  NetworkQuery query = schedule_.plan(clock.cycle, {std::max(2 * ball_moves, ball_moves + walls_move),
+                                                    std::clamp(skin_.width() - used, 0.0, skin_.far()), least_radius_});
   query.local_damping = local_damping();
   const bool few = coordination(contacts, balls, cell) < few_contacts;
   // The user's own step is held to what is stable, not to what is accurate.
@@ -82,7 +81,7 @@ NetworkBound Engine::weigh(NetworkQuery& query) {
   const double least = step.automatic() ? step.enough(clock.cycle) : 0.0;
   if (query.sweeps > 0 || least == 0 || contacts.slices().rows() != balls.size())
     return network_bound(contacts, balls, walls, cell, query, team);
-  const double now = step.step() / StepControl::safety;
+  const double now = step.holding();
   const Holding found =
       step_holds(contacts, balls, walls, cell, query.links, query.local_damping, now, least / now, team);
   if (!found.holds) {

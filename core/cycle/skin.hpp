@@ -18,19 +18,22 @@ class Skin {
   /// They are made, for whatever reason.
   void renewed(uint64_t cycle) { since_ = cycle; }
   double width() const { return width_; }
-  /// The width it begins with. Estimates of the step look no further: what they count as touching shortens it.
+  /// The width it begins with.
   double narrow() const { return narrow_; }
+  /// The widest it would get by itself, m: estimates of the step look no further, as what they count as touching
+  /// shortens it.
+  double far() const { return far_; }
 
   /// For checkpoints.
   struct State {
-    double width = 0, narrow = 0, wide = 0;
+    double width = 0, narrow = 0, wide = 0, far = 0;
     uint64_t since = 0;
   };
-  State state() const { return {width_, narrow_, wide_, since_}; }
+  State state() const { return {width_, narrow_, wide_, far_, since_}; }
   void restore(const State& state);
 
  private:
-  double width_ = 0, narrow_ = 0, wide_ = 0;
+  double width_ = 0, narrow_ = 0, wide_ = 0, far_ = 0;
   uint64_t since_ = 0;  ///< cycle of the lists of now
 };
 

@@ -23,6 +23,8 @@ class StepControl {
     const bool now = step_ == 0 || (since_ != never && cycle - since_ >= patience);
     return now ? 0 : 1.05 * rise / safety * step_;  // rounding to six bits takes at most a thirty-third
   }
+  /// The least bound that the step of now follows from, s.
+  double holding() const { return step_ / safety * (1 + 1e-12); }
   double step() const { return fixed ? *fixed : step_; }
   bool automatic() const { return !fixed; }
   const StepBound& bound() const { return bound_; }

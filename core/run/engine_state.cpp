@@ -56,8 +56,8 @@ void load_step(StepControl& step, const ArchiveReader& archive) {
 
 void save_loop(const Engine::Loop& loop, ArchiveWriter& out) {
   Packer packer;
-  for (double value :
-       {loop.ball_travel, loop.wall_travel, loop.extent, loop.skin.width, loop.skin.narrow, loop.skin.wide})
+  for (double value : {loop.ball_travel, loop.wall_travel, loop.extent, loop.skin.width, loop.skin.narrow,
+                       loop.skin.wide, loop.skin.far})
     packer.f64(value);
   packer.u64(loop.skin.since);
   packer.flag(loop.forces_current != 0);
@@ -96,8 +96,8 @@ void load_ledger(Engine& engine, Engine::Loop& loop, const ArchiveReader& archiv
 Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
   Unpacker in(archive, "loop");
   Engine::Loop loop{};
-  for (double* value :
-       {&loop.ball_travel, &loop.wall_travel, &loop.extent, &loop.skin.width, &loop.skin.narrow, &loop.skin.wide}) {
+  for (double* value : {&loop.ball_travel, &loop.wall_travel, &loop.extent, &loop.skin.width, &loop.skin.narrow,
+                        &loop.skin.wide, &loop.skin.far}) {
     *value = in.f64();
     if (!(*value >= 0 && std::isfinite(*value))) in.refuse("a length is not a finite number of at least 0");
   }

@@ -46,11 +46,14 @@ TEST_CASE("the skin widens where it is used up soon, and narrows where it lasts"
     skin.renewed(cycle);
   }
   CHECK(skin.width() == 4 * narrow);
-  skin.used_up(cycle += 30);
-  CHECK(skin.width() == 4 * narrow);
-  skin.renewed(cycle);
+  // Between 30 and 105 cycles they are as wide as they should be: 120 and 420 of narrow ones.
+  for (const uint64_t lasted : {31u, 104u}) {
+    skin.used_up(cycle += lasted);
+    CHECK(skin.width() == 4 * narrow);
+    skin.renewed(cycle);
+  }
   for (int k = 0; k < 10; ++k) {
-    skin.used_up(cycle += 200);
+    skin.used_up(cycle += 600);
     skin.renewed(cycle);
   }
   CHECK(skin.width() == narrow);
