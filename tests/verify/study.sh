@@ -70,7 +70,8 @@ study co1 co1_pairs.yaml -- trajectory 1.8 2.2 least_peak 1.8 2.2 restitution 2.
 study c3 c3_drops.yaml -- restitution 0.75 1.25
 study p01 p01_dynamic.yaml -- trajectory 1.8 2.2 rotation 1.8 2.2 tip 1.8 2.2
 study p12 p12_pulse.yaml -- trajectory 1.8 2.2 balls.38.velocity.x 1.8 2.2
-study box box_30.yaml -- trajectory 1.8 2.2
+# The automatic step and its nearest are better than their order there: contacts last whole numbers of steps.
+study box box_30.yaml --rungs 13 -- trajectory 1.8 2.2
 study box_dashpots box_30.yaml --set vars.damping=0.1 --rungs 13 -- trajectory 0.75 1.25
 
 mv "$work/page" "$page"
