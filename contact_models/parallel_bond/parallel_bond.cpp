@@ -146,7 +146,10 @@ struct ParallelBond : GluedSprings {
     r.moment = b.moment;
   }
   /// Both bonds gone; of which kind the parallel one went.
-  double broken(const Bond& b) const { return glues() && bond_intact(b.glue) ? 0.0 : break_of(b.mode); }
+  double broken(const Bond& b) const {
+    const double alone = break_of(b.mode), beside = bond_intact(b.glue) ? 0.0 : +alone;
+    return glues() ? +beside : +alone;
+  }
 
   void energy(const SpinContact& c, const State& s0, const State& s, const Bond& b0, const Bond& b,
               const MomentResponse& r, Energies& e) const {

@@ -9,21 +9,28 @@ namespace scree::core {
 
 namespace {
 
+// Slots rise; those of bonds mostly follow each other, as every bond is looked at.
+bool in_a_row(uint32_t n, const Scratch& s) { return s.slot[n - 1] - s.slot[0] == n - 1; }
+
+void load(const Array<double>& column, uint32_t n, const Scratch& s, double* to) {
+  if (in_a_row(n, s))
+    std::copy_n(column.data() + s.slot[0], n, to);
+  else
+    for (uint32_t k = 0; k < n; ++k) to[k] = column[s.slot[k]];
+}
+
 void load_columns(const TouchList& list, uint32_t n, Scratch& s) {
-  for (std::size_t w = 0; w < list.state.size(); ++w) {
-    const double* column = list.state[w].data();
-    for (uint32_t k = 0; k < n; ++k) s.state[w][k] = column[s.slot[k]];
-  }
-  for (std::size_t v = 0; v < list.property.size(); ++v) {
-    const double* column = list.property[v].data();
-    for (uint32_t k = 0; k < n; ++k) s.property[v][k] = column[s.slot[k]];
-  }
+  for (std::size_t w = 0; w < list.state.size(); ++w) load(list.state[w], n, s, s.state[w]);
+  for (std::size_t v = 0; v < list.property.size(); ++v) load(list.property[v], n, s, s.property[v]);
 }
 
 void store_columns(TouchList& list, uint32_t n, const Scratch& s) {
   for (std::size_t w = 0; w < list.state.size(); ++w) {
     double* column = list.state[w].data();
-    for (uint32_t k = 0; k < n; ++k) column[s.slot[k]] = s.state[w][k];
+    if (in_a_row(n, s))
+      std::copy_n(s.state[w], n, column + s.slot[0]);
+    else
+      for (uint32_t k = 0; k < n; ++k) column[s.slot[k]] = s.state[w][k];
   }
   for (uint32_t k = 0; k < n; ++k) list.active[s.slot[k]] = 1;
 }

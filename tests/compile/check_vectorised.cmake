@@ -1,12 +1,22 @@
-# cmake -DCOMPILE=... -P check_vectorised.cmake: g++ must report at least LOOPS of the adapter's
-# loops in each of the three widths of vectors.
+# cmake -DCOMPILE=... -DLOOPS=... -DADAPTER=contact_batch.hpp -P check_vectorised.cmake: g++ must report at least LOOPS of
+# the adapter's loops over a law, those that call one(i), in each of the three widths of vectors.
+file(STRINGS ${ADAPTER} text)
+set(number 0)
+set(lines "")
+foreach(line IN LISTS text)
+  math(EXPR number "${number} + 1")
+  if(line MATCHES "one\\(i\\)")
+    list(APPEND lines ${number})
+  endif()
+endforeach()
+list(JOIN lines "|" lines)
 separate_arguments(command UNIX_COMMAND "${COMPILE}")
 execute_process(COMMAND ${command} RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE err)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "did not compile:\n${err}")
 endif()
 foreach(bytes 16 32 64)
-  string(REGEX MATCHALL "contact_batch.hpp:[0-9]+:[0-9]+: optimized: loop vectorized using ${bytes} byte vectors" hits "${err}")
+  string(REGEX MATCHALL "contact_batch.hpp:(${lines}):[0-9]+: optimized: loop vectorized using ${bytes} byte vectors" hits "${err}")
   list(LENGTH hits count)
   if(count LESS LOOPS)
     message(FATAL_ERROR "${count} loops use vectors of ${bytes} bytes, ${LOOPS} should")

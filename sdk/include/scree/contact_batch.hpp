@@ -4,8 +4,9 @@
 /// The shape of these loops is what makes them vectorise in g++ and clang, and small changes cost a factor of two to
 /// four without a warning: the body is an always-inlined lambda (g++ turns a struct declared in an `omp simd` loop into
 /// an array), every pointer sits in a local (read through the batch it is not hoisted), breaks are written per contact
-/// and summed afterwards (a reduction through a lambda is not vectorised), and `try` is inside the body (an exception
-/// may not leave the loop).
+/// and summed afterwards (a reduction through a lambda is not vectorised), `try` is inside the body (an exception may
+/// not leave the loop), and words become a struct one by one (a copy of 16 or 64 bytes is an integer or a vector to
+/// g++).
 #include <scree/contact_check.hpp>
 
 #include <cstring>
@@ -15,27 +16,27 @@ namespace scree::batch {
 template <class T>
 using Indices = std::make_index_sequence<shape::words<T>()>;
 
+// A struct of a law is so many doubles, see contact_check.hpp.
 template <class T, std::size_t... K>
 SCREE_INLINE T gather(const double* const* column, std::size_t i, std::size_t first, std::index_sequence<K...>) {
   T out{};
-  if constexpr (sizeof...(K) > 0) {
-    struct Words {
-      double w[sizeof...(K)];
-    } const words{{column[first + K][i]...}};
-    std::memcpy(static_cast<void*>(&out), &words, sizeof out);
-  }
+  auto* word = reinterpret_cast<double*>(&out);
+  ((word[K] = column[first + K][i]), ...);
+  return out;
+}
+/// The same from words that stand one after the other.
+template <class T, std::size_t... K>
+SCREE_INLINE T read(const void* words, std::index_sequence<K...>) {
+  T out{};
+  auto* word = reinterpret_cast<double*>(&out);
+  ((word[K] = static_cast<const double*>(words)[K]), ...);
   return out;
 }
 template <class T, std::size_t... K>
 SCREE_INLINE void scatter(double* const* column, std::size_t i, std::size_t first, const T& value,
                           std::index_sequence<K...>) {
-  if constexpr (sizeof...(K) > 0) {
-    struct Words {
-      double w[sizeof...(K)];
-    } words;
-    std::memcpy(&words, &value, sizeof value);
-    ((column[first + K][i] = words.w[K]), ...);
-  }
+  const auto* word = reinterpret_cast<const double*>(&value);
+  ((column[first + K][i] = word[K]), ...);
 }
 
 /// Calls the law in the form its author chose.
@@ -84,7 +85,7 @@ SCREE_INLINE uint32_t loop(const void* uniform, const scree_batch& b) {
   if constexpr (Energy)
     for (std::size_t k = 0; k < 4; ++k) energy[k] = b.energy[k];
   L rule{};
-  if constexpr (!Varying) std::memcpy(static_cast<void*>(&rule), uniform, sizeof rule);
+  if constexpr (!Varying) rule = read<L>(uniform, Indices<L>{});
   const double dt = b.dt;
   const uint32_t n = b.n;
   bool threw = false;
@@ -160,7 +161,7 @@ SCREE_INLINE uint32_t normal_loop(const void* uniform, const scree_batch& b) {
   if constexpr (Energy)
     for (std::size_t k = 0; k < 4; ++k) energy[k] = b.energy[k];
   L rule{};
-  if constexpr (!Varying) std::memcpy(static_cast<void*>(&rule), uniform, sizeof rule);
+  if constexpr (!Varying) rule = read<L>(uniform, Indices<L>{});
   const double dt = b.dt;
   const uint32_t n = b.n;
   bool threw = false;

@@ -51,7 +51,7 @@ struct GluedSprings : LinearSprings {
     const double limit = fric * normal;
     const bool sliding = !holds && size > limit;
     const Vec3 shear = (sliding ? limit / size : 1.0) * trial;
-    s.spring = shear + (lin_mode != 0 ? normal : 0.0) * c.normal;
+    s.spring = shear + (lin_mode * normal) * c.normal;
     r.force = glued_normal(c, normal, before.active, holds) * c.normal + shear -
               glued_dashpot(c, before.active, holds, sliding);
     r.sliding = sliding;
