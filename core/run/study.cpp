@@ -252,9 +252,8 @@ class Studying {
     if (options_.quick) {
       if (horizon_.usual_step == 0)
         study_.remarks.push_back(
-            "Nothing touched in the part of the scene that was looked at, so this study says nothing of contacts; "
-            "leave "
-            "out --quick.");
+            "Nothing touched in the part of the scene that was looked at, so this study says nothing of "
+            "contacts; leave out --quick.");
       return;
     }
     study_.horizon = horizon_.time;
