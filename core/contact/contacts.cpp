@@ -98,6 +98,13 @@ Excess pair_excess(const BoundRule& rule, const Balls& balls, uint32_t n, double
   return excess;
 }
 
+// Of the smaller radius; 0 where none is beyond the limit.
+double deepest_of(uint32_t n, double limit, const Scratch& s) {
+  double most = 0;
+  for (uint32_t k = 0; k < n; ++k) most = std::max(most, -s.gap[k] / std::min(s.r1[k], s.r2[k]));
+  return most > limit ? most : 0;
+}
+
 std::string pair_text(uint64_t a, uint64_t b) {
   return "balls " + std::to_string(std::min(a, b)) + " and " + std::to_string(std::max(a, b));
 }
@@ -180,8 +187,10 @@ Excess Contacts::run_list(std::size_t block, std::size_t index, const Balls& bal
     const uint32_t n = filter(view, input, cursor, list.active.data(), s, drops, dropped);
     if (!list.bonded) forget_state(list, drops, dropped, block_energy_[block]);
     if (n == 0) continue;
-    if (geometry(view, n, options.dt, options.overlap_limit, s) && !excess.found)
-      excess = pair_excess(rule, balls, n, options.overlap_limit, s);
+    if (geometry(view, n, options.dt, std::min(options.depth, options.overlap_limit), s)) {
+      block_deepest_[block] = std::max(block_deepest_[block], deepest_of(n, options.depth, s));
+      if (!excess.found) excess = pair_excess(rule, balls, n, options.overlap_limit, s);
+    }
     run_batch(list, n, balls, options, block, s);
     if (scatter(n, first, slices_.slice(block), s) && !excess.found) excess = useless_force(rule, balls, n, s);
   }
@@ -193,6 +202,7 @@ Excess Contacts::run_block(std::size_t block, const Balls& balls, const std::vec
   slices_.clear(block);
   broke_[block].clear();
   block_energy_[block] = {};
+  block_deepest_[block] = 0;
   Excess worst;
   for (std::size_t index = 0; index < lists_.size(); ++index) {
     Excess excess = run_list(block, index, balls, shift, options, s);
@@ -217,9 +227,11 @@ Excess Contacts::evaluate(const Balls& balls, std::vector<Wall>& walls, const Pe
   std::vector<Excess> excess(slices_.blocks());
   broke_.resize(slices_.blocks());
   block_energy_.resize(slices_.blocks());
+  block_deepest_.resize(slices_.blocks());
   team.each_block(slices_.blocks(), [&](std::size_t block, unsigned thread) {
     excess[block] = run_block(block, balls, walls, shift, options, scratch_[thread]);
   });
+  deepest_ = block_deepest_.empty() ? 0 : *std::max_element(block_deepest_.begin(), block_deepest_.end());
   for (Wall& wall : walls) {
     wall.force = wall.moment = {};
     wall.contacts = 0;

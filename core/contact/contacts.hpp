@@ -50,10 +50,12 @@ struct BondOrder {
 struct PassOptions {
   double dt = 0;               ///< of the drift that led here, s
   double overlap_limit = 0.5;  ///< of the smaller radius
-  bool sums = false;           ///< also the sum of contact force sizes per ball
-  uint64_t cycle = 0;          ///< for the note of a crash
-  bool report = false;         ///< also force, moment and sliding flag per contact
-  bool energy = false;         ///< also the energies
+  /// Of the smaller radius; deeper overlaps of two balls are told by Contacts::deepest().
+  double depth = std::numeric_limits<double>::infinity();
+  bool sums = false;    ///< also the sum of contact force sizes per ball
+  uint64_t cycle = 0;   ///< for the note of a crash
+  bool report = false;  ///< also force, moment and sliding flag per contact
+  bool energy = false;  ///< also the energies
 };
 
 /// All contacts of the scene: lists by rule, walls, force records, and the pass over them.
@@ -110,6 +112,9 @@ class Contacts {
   std::size_t bytes() const;
   uint64_t active() const;  ///< ball-ball contacts whose law runs
   uint64_t listed() const;  ///< pairs in lists, touching or not
+  /// Overlap of the deepest pair of balls in the last pass over its smaller radius, where beyond the depth of the
+  /// pass's options; else 0.
+  double deepest() const { return deepest_; }
 
  private:
   Excess run_block(std::size_t block, const Balls& balls, const std::vector<Wall>& walls, const double (*shift)[3],
@@ -133,6 +138,8 @@ class Contacts {
   std::vector<std::vector<Break>> broke_;    ///< in the last pass, by block
   std::vector<ContactEnergy> block_energy_;  ///< of the last pass
   ContactEnergy energy_;
+  std::vector<double> block_deepest_;  ///< of the last pass
+  double deepest_ = 0;
   std::vector<WallList> wall_lists_;     ///< by block, wall and rule, a bonded one behind that beside it
   std::vector<std::size_t> wall_first_;  ///< first wall list of each block; blocks + 1
   Slices slices_;

@@ -300,9 +300,11 @@ void append(Links& all, const Links& part) {
 struct Rows {
   std::size_t first, last;
 };
+enum class Meet { all, walls };
 Links gather(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
-             const LinkQuery& query, Rows rows, Team& team, const LinkSink* sink) {
-  const std::size_t blocks = (balls.size() + block_rows - 1) / block_rows, lists = contacts.wall_lists().size();
+             const LinkQuery& query, Rows rows, Meet meet, Team& team, const LinkSink* sink) {
+  const std::size_t lists = contacts.wall_lists().size(),
+                    blocks = meet == Meet::walls ? 0 : (balls.size() + block_rows - 1) / block_rows;
   std::vector<Links> parts(blocks + lists);
   std::vector<std::unique_ptr<Gatherer>> gatherers(team.size());
   team.each_block(parts.size(), [&](std::size_t part, unsigned thread) {
@@ -328,12 +330,17 @@ Links gather(const Contacts& contacts, const Balls& balls, const std::vector<Wal
 
 Links gather_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                    const PeriodicCell& cell, const LinkQuery& query, std::size_t first, std::size_t last, Team& team) {
-  return gather(contacts, balls, walls, cell, query, {first, last}, team, nullptr);
+  return gather(contacts, balls, walls, cell, query, {first, last}, Meet::all, team, nullptr);
+}
+
+Links wall_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
+                 const LinkQuery& query, Team& team) {
+  return gather(contacts, balls, walls, cell, query, {0, balls.size()}, Meet::walls, team, nullptr);
 }
 
 Links stream_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                    const PeriodicCell& cell, const LinkQuery& query, Team& team, const LinkSink& sink) {
-  return gather(contacts, balls, walls, cell, query, {0, balls.size()}, team, &sink);
+  return gather(contacts, balls, walls, cell, query, {0, balls.size()}, Meet::all, team, &sink);
 }
 
 double coordination(const Contacts& contacts, const Balls& balls, const PeriodicCell& cell) {

@@ -38,6 +38,10 @@ struct Links {
 Links gather_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                    const PeriodicCell& cell, const LinkQuery& query, std::size_t first, std::size_t last, Team& team);
 
+/// The links with walls alone.
+Links wall_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
+                 const LinkQuery& query, Team& team);
+
 /// Takes links of pairs owned by a block of rows. Blocks come from several threads, each from one.
 using LinkSink = std::function<void(std::size_t block, const std::vector<Link>& links)>;
 /// The same over all rows, but links of pairs go batch by batch to `sink` and are not kept; those of walls are.

@@ -5,6 +5,7 @@
 
 #include "core/contact/ball_block.hpp"
 #include "core/contact/run_law.hpp"
+#include "core/contact/trial_pair.hpp"
 
 namespace scree::core {
 
@@ -20,8 +21,6 @@ class Trial {
   const StepBound& bound() const { return bound_; }
 
  private:
-  void load(const BoundRule& rule, std::size_t row, std::size_t other, const Wall* wall);
-
   const RuleBook& book_;
   const Balls& balls_;
   const double limit_;
@@ -30,36 +29,22 @@ class Trial {
   Tangents t_;
 };
 
-void Trial::load(const BoundRule& rule, std::size_t row, std::size_t other, const Wall* wall) {
-  const double *inverse = balls_[Column::inverse_mass], radius = balls_[Column::radius][row];
+void Trial::meet(std::size_t row, std::size_t other, uint16_t index, const Wall* wall) {
+  if (index == no_rule || book_.rules[index].model == nullptr) return;
+  const BoundRule& rule = book_.rules[index];
+  const double inverse = balls_[Column::inverse_mass][row], radius = balls_[Column::radius][row];
+  if (inverse == 0) return;
   Birth birth;
   birth.row1 = static_cast<uint32_t>(row);
   birth.row2 = static_cast<uint32_t>(other);
   birth.wall = wall;
   birth.r1 = radius;
   birth.r2 = wall != nullptr ? 0 : balls_[Column::radius][other];
-  birth.mass = 1 / (inverse[row] + (wall != nullptr ? 0 : inverse[other]));
+  birth.mass = 1 / (inverse + (wall != nullptr ? 0 : balls_[Column::inverse_mass][other]));
   birth.x = balls_[Column::x][row];
   birth.y = balls_[Column::y][row];
   birth.z = balls_[Column::z][row];
-  std::vector<double> words = rule.words;
-  if (!rule.varying.empty()) rule.vary(birth, words.data());
-  for (std::size_t v = 0; v < rule.varying.size(); ++v) s_->property[v][0] = words[rule.varying[v]];
-  for (uint32_t w = 0; w < rule.state_words(); ++w) s_->state[w][0] = 0;
-  s_->nx[0] = 1;
-  s_->ny[0] = s_->nz[0] = 0;
-  s_->gap[0] = -1e-6 * radius;
-  s_->r1[0] = radius;
-  s_->r2[0] = birth.r2;
-  s_->mass[0] = birth.mass;
-}
-
-void Trial::meet(std::size_t row, std::size_t other, uint16_t index, const Wall* wall) {
-  if (index == no_rule || book_.rules[index].model == nullptr) return;
-  const BoundRule& rule = book_.rules[index];
-  const double inverse = balls_[Column::inverse_mass][row], radius = balls_[Column::radius][row];
-  if (inverse == 0) return;
-  load(rule, row, other, wall);
+  load_trial(rule, birth, -1e-6 * radius, 0, *s_);
   tangents(rule, 1, false, *s_, t_);
   Link link{};
   link.normal[0] = 1;

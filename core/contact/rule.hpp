@@ -34,6 +34,8 @@ struct BoundRule {
   std::vector<uint32_t> varying;  ///< words with a value per contact, ascending
   /// Fills all words of a new contact; empty when nothing varies. [any thread]
   std::function<void(const Birth&, double* words)> vary;
+  /// They vary with more than the groups, radii and masses of the pieces: drawn, by place, or given ball by ball.
+  bool drawn = false;
   double reach = 0;                ///< largest gap at which the law runs, m
   uint32_t needs = 0;              ///< flags of the law, or SCREE_NORMAL_ONLY
   scree_law law = nullptr;         ///< chosen for the instruction set and for uniform or varying properties

@@ -89,6 +89,7 @@ void Engine::check_count() const {
 }
 
 void Engine::prepare() {
+  crowd_.reset();
   frequency_.forget();
   counted_ = census();
   const bool spins = contacts.book.spins() || std::any_of(processes.begin(), processes.end(), [](const Process& p) {
@@ -199,15 +200,22 @@ double Engine::wall_work(bool before) const {
 
 void Engine::evaluate_forces() {
   detect();
-  const PassOptions options{clock.dt_law, overlap_limit, sums_wanted, clock.cycle, report_wanted, ledger.on};
+  PassOptions options;
+  options.dt = clock.dt_law;
+  options.overlap_limit = overlap_limit;
+  if (crowd_use_.rests != 0) options.depth = crowd_use_.depth;
+  options.sums = sums_wanted;
+  options.cycle = clock.cycle;
+  options.report = report_wanted;
+  options.energy = ledger.on;
   const Excess excess = contacts.evaluate(balls, walls, cell, options, team);
   contact_updates_ += contacts.listed();
   for (const WallList& list : contacts.wall_lists()) contact_updates_ += list.slots.size();
   forces_current_ = true;
   if (ledger.on) ledger.add_contacts(contacts.energy());
   for (const Break& one : contacts.take_breaks()) broken.push_back({clock.cycle, clock.time(), one});
-  if (!excess.found) return;
-  stop_excess(excess);
+  if (excess.found) stop_excess(excess);
+  watch_depth();
 }
 
 void Engine::stop_excess(const Excess& excess) const {
@@ -419,7 +427,8 @@ Engine::Loop Engine::loop() const {
           static_cast<uint8_t>(forces_current()),
           rebuilds_,
           contact_updates_,
-          schedule_.state()};
+          schedule_.state(),
+          crowd_use_};
 }
 
 void Engine::restore(const Loop& loop) {
@@ -433,6 +442,7 @@ void Engine::restore(const Loop& loop) {
   rebuilds_ = loop.rebuilds;
   contact_updates_ = loop.contact_updates;
   schedule_.restore(loop.schedule);
+  crowd_use_ = loop.crowd;
 }
 
 }  // namespace scree::core

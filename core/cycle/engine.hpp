@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/threads.hpp"
 #include "core/contact/contacts.hpp"
+#include "core/contact/crowd.hpp"
 #include "core/contact/step_bound.hpp"
 #include "core/cycle/energy_balance.hpp"
 #include "core/cycle/monitors.hpp"
@@ -120,6 +122,14 @@ class Engine {
   double largest_overlap() const;  ///< of the smaller radius, over active contacts, now
   uint64_t state_hash() const;     ///< over positions, velocities, spins and contact state in id order
 
+  /// Whether the step rests on the room round each ball, see Crowd.
+  struct CrowdUse {
+    double depth = 0;     ///< that overlaps were taken to have; 0: not asked yet
+    uint64_t since = 0;   ///< cycle when overlaps were looked at last
+    uint64_t asked = 0;   ///< cycle when it was last asked whether estimates are worth their price
+    uint8_t refused = 0;  ///< they were
+    uint8_t rests = 0;    ///< the step of now follows from the room
+  };
   /// What a checkpoint holds beside columns.
   struct Loop {
     double ball_travel, wall_travel, extent;
@@ -129,6 +139,7 @@ class Engine {
     uint8_t forces_current;
     uint64_t rebuilds, contact_updates;
     StepSchedule::State schedule;
+    CrowdUse crowd;
   };
   Loop loop() const;
   void restore(const Loop& loop);
@@ -145,6 +156,10 @@ class Engine {
   void watch_honesty();
   double fastest_ball() const;
   StepBound flight() const;
+  std::optional<StepBound> crowded(const NetworkQuery& query, uint64_t lasted);
+  bool know_crowd();
+  bool estimates_pay(const LinkQuery& links, double damping, double crowd_step, double price);
+  void watch_depth();
   void check_cell() const;
   double room_for_skin() const;  ///< m, that the edges of the periodic cell leave
   void check_energies() const;
@@ -170,6 +185,8 @@ class Engine {
   std::vector<double> block_sums_;    ///< of the row processes, by block
   StepBound possible_;
   StepSchedule schedule_;
+  CrowdUse crowd_use_;
+  std::unique_ptr<Crowd> crowd_;  ///< null: to be made when it is asked for
   std::string estimated_;
   FrequencyWatch frequency_;
   HonestyWatch honesty_;

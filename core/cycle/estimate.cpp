@@ -12,8 +12,7 @@ namespace scree::core {
 
 namespace {
 
-constexpr double travel = 0.4;      ///< of its own radius, by a ball in one cycle
-constexpr double few_contacts = 2;  ///< per ball: below, collisions are what happens
+constexpr double travel = 0.4;  ///< of its own radius, by a ball in one cycle
 
 }  // namespace
 
@@ -51,9 +50,12 @@ StepBound Engine::estimate() {
   for (const Wall& wall : walls) walls_move = std::max(walls_move, wall.travel(clock.dt, extent_));
   const double ball_moves = fastest_ball() * clock.dt;
   const double used = std::max(2 * ball_travel_, ball_travel_ + wall_travel_);
+  const uint64_t lasted = clock.cycle - schedule_.state().last;
   NetworkQuery query = schedule_.plan(clock.cycle, {std::max(2 * ball_moves, ball_moves + walls_move),
                                                     std::clamp(skin_.width() - used, 0.0, skin_.far()), least_radius_});
   query.local_damping = local_damping();
+  if (const auto bound = crowded(query, lasted)) return smaller(*bound, flight());
+  crowd_use_.rests = 0;
   const bool few = coordination(contacts, balls, cell) < few_contacts;
   // The user's own step is held to what is stable, not to what is accurate.
   if (step.automatic()) {

@@ -7,6 +7,9 @@ namespace scree::core {
 /// any phase, it parts with a speed that is right to 1.4 %. At 5.5 steps, where the error has a peak, it is 4.2 %.
 inline constexpr double impact_share = 0.276, accurate_share = 0.1;
 
+/// Contacts per ball: below, collisions are what happens, and the step follows them.
+inline constexpr double few_contacts = 2;
+
 /// Of the smaller radius: as far a pair may close in one cycle, so that no contact is born deeper.
 inline constexpr double birth_depth = 0.05;
 

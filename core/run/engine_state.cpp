@@ -66,6 +66,11 @@ void save_loop(const Engine::Loop& loop, ArchiveWriter& out) {
   for (double value : {loop.schedule.margin, loop.schedule.balls, loop.schedule.walls}) packer.f64(value);
   packer.u64(loop.schedule.last);
   packer.u64(loop.schedule.made);
+  packer.f64(loop.crowd.depth);
+  packer.u64(loop.crowd.since);
+  packer.u64(loop.crowd.asked);
+  packer.flag(loop.crowd.refused != 0);
+  packer.flag(loop.crowd.rests != 0);
   out.put("loop", packer.bytes());
 }
 
@@ -111,6 +116,11 @@ Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
   }
   loop.schedule.last = in.u64();
   loop.schedule.made = in.u64();
+  loop.crowd.depth = in.f64();
+  loop.crowd.since = in.u64();
+  loop.crowd.asked = in.u64();
+  loop.crowd.refused = in.flag();
+  loop.crowd.rests = in.flag();
   if (loop.schedule.made > 1000) in.refuse("an estimate of the step makes no sense");
   in.finish();
   if (loop.forces_current != 0 && !built) in.refuse("forces without lists");

@@ -384,6 +384,8 @@ BoundRule bind_rule(const Simulation& simulation, const Rule& rule) {
   // A bond needs what the law without friction could do without.
   if (bound.can_bond()) bound.needs = bound.model->flags;
   if (bound.model->normal_only[0] == nullptr) bound.needs &= ~static_cast<uint32_t>(SCREE_NORMAL_ONLY);
+  bound.drawn = std::any_of(binding->inputs.begin(), binding->inputs.end(),
+                            [](const Input& input) { return input.setting != nullptr || input.by_ball; });
   // Also where nothing varies now: a checkpoint may say that something does.
   bound.vary = [binding](const Birth& birth, double* words) { binding->fill(birth, words); };
   return bound;

@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/threads.hpp"
+#include "core/contact/links.hpp"
+#include "core/contact/rule.hpp"
+#include "core/contact/step_bound.hpp"
+#include "core/world/balls.hpp"
+#include "core/world/cell.hpp"
+
+namespace scree::core {
+
+/// What holds however balls are arranged: a ball has no more contacts than find room round it, as long as those that
+/// touch it do not overlap each other by more than `depth`, and none of its contacts is stiffer than the stiffest that
+/// its rules allow down to there. Costs nothing while balls move. Bonds and walls are not in it.
+class Crowd {
+ public:
+  /// `depth`: share of the smaller radius that no two balls overlap by.
+  Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, double depth, Team& team);
+  /// Why there is no such limit for these rules and balls; "" where there is one.
+  const std::string& unknown() const { return unknown_; }
+  double depth() const { return depth_; }
+  /// Whether balls that may overlap others are where they were when it was made.
+  bool still(const Balls& balls) const { return resting_ == at_rest(balls); }
+  /// Of the step, for any arrangement.
+  StepBound bound(double local_damping) const;
+
+  /// At most this much do the contacts with balls add to the block of a ball, over its mass and inertia: h^2 stiffness
+  /// + h damping for half a step h, the same for all its translations and rotations.
+  struct Load {
+    double stiffness = 0, damping = 0;  ///< 1/s^2, 1/s
+  };
+  Load load(uint16_t group, double radius) const;
+  /// Limit of the step of the stiffest pair that could collide, s, where no stiffness changes with the overlap; else 0.
+  double pair_step() const { return pair_step_; }
+
+ private:
+  /// Balls of one group and nearly one size.
+  struct Class {
+    uint16_t group = 0;
+    double low = 0, high = 0;                ///< radii, m
+    double least_mass = 0, most_mass = 0;    ///< kg, of those that move
+    uint32_t row = no_row, moving = no_row;  ///< one of all, and the lightest that moves
+    uint64_t id = 0;                         ///< of the lightest that moves
+    bool fixed = false;                      ///< some do not move
+    Load load;
+  };
+  void sort(const Balls& balls);
+  void refuse_loose(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team);
+  void weigh(const RuleBook& book);
+  uint64_t at_rest(const Balls& balls) const;
+
+  double depth_;
+  std::string unknown_;
+  std::vector<Class> classes_;
+  std::vector<uint8_t> loose_;  ///< by group: its balls may overlap others without a force
+  uint64_t resting_ = 0;
+  double pair_step_ = 0;
+};
+
+/// The limit of the step where balls touch walls as the links tell, and other balls in any arrangement.
+StepBound crowd_at_walls(const Crowd& crowd, const std::vector<Link>& with_walls, const Balls& balls,
+                         const std::vector<Wall>& walls, double local_damping);
+
+}  // namespace scree::core
