@@ -8,26 +8,33 @@ namespace scree::core {
 
 namespace {
 
-/// Balls of which one at least belongs to every pair that closes fast.
-std::vector<uint8_t> fast_balls(const BallView& b, std::size_t n, double depth, double longest, bool& any) {
+/// How much a ball moves beside a velocity common to all.
+enum : uint8_t { cool = 0, warm = 1, hot = 2 };
+
+/// Of a pair that closes fast one is hot, and the other is warm or hot: together they are as fast as that, and none is
+/// faster than the fastest. Empty when there is no such pair.
+std::vector<uint8_t> heat(const BallView& b, std::size_t n, double closing) {
   double middle[3];
   const double* speed[3] = {b.vx, b.vy, b.vz};
   for (int axis = 0; axis < 3; ++axis) {
     const auto [low, high] = std::minmax_element(speed[axis], speed[axis] + n);
     middle[axis] = 0.5 * (*low + *high);
   }
-  const double least = *std::min_element(b.radius, b.radius + n);
-  // Beside any common velocity one of the two makes half of the way or more.
-  const double slow = 0.5 * depth * least / longest * (1 - 1e-9);
-  std::vector<uint8_t> fast(n);
-  int found = 0;
-  for (std::size_t row = 0; row < n; ++row) {
+  const auto square = [&](std::size_t row) {
     const double x = b.vx[row] - middle[0], y = b.vy[row] - middle[1], z = b.vz[row] - middle[2];
-    fast[row] = !(x * x + y * y + z * z < slow * slow);
-    found |= fast[row];
+    return x * x + y * y + z * z;
+  };
+  double most = 0;
+  for (std::size_t row = 0; row < n; ++row) most = std::max(most, square(row));
+  if (most < 0.25 * closing * closing) return {};
+  const double hot_from = 0.25 * closing * closing, gap = std::max(0.0, closing - std::sqrt(most)),
+               warm_from = gap * gap;
+  std::vector<uint8_t> of(n);
+  for (std::size_t row = 0; row < n; ++row) {
+    const double own = square(row);
+    of[row] = own < warm_from ? cool : own < hot_from ? warm : hot;
   }
-  any = found != 0;
-  return fast;
+  return of;
 }
 
 }  // namespace
@@ -37,9 +44,8 @@ StepBound soonest_closing(const Contacts& contacts, const Balls& balls, const Pe
   const std::size_t n = balls.size();
   if (n == 0) return {};
   const BallView b(balls);
-  bool any = false;
-  const std::vector<uint8_t> fast = fast_balls(b, n, depth, longest, any);
-  if (!any) return {};
+  const std::vector<uint8_t> of = heat(b, n, depth * *std::min_element(b.radius, b.radius + n) / longest * (1 - 1e-9));
+  if (of.empty()) return {};
   const ImageShifts shifts(cell);
   struct First {
     double time;
@@ -55,7 +61,7 @@ StepBound soonest_closing(const Contacts& contacts, const Balls& balls, const Pe
       for (std::size_t i = block * block_rows; i < end; ++i)
         for (uint64_t slot = list.begin[i]; slot < list.begin[i + 1]; ++slot) {
           const std::size_t j = list.other[slot];
-          if ((fast[i] | fast[j]) == 0) continue;
+          if (of[i] * of[j] < 2) continue;
           const double* shift = shifts.of[target::image(list.where[slot])];
           const double x = b.x[j] - b.x[i] + shift[0], y = b.y[j] - b.y[i] + shift[1], z = b.z[j] - b.z[i] + shift[2];
           const double along = x * (b.vx[j] - b.vx[i]) + y * (b.vy[j] - b.vy[i]) + z * (b.vz[j] - b.vz[i]);

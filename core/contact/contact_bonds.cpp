@@ -29,7 +29,7 @@ uint64_t Contacts::bond(const BondOrder& order, const Balls& balls, const std::v
   const std::size_t n = balls.size();
   double largest = 0;
   for (std::size_t row = 0; row < n; ++row) largest = std::max(largest, balls[Column::radius][row]);
-  const PairTable pairs = find_pairs(balls, cell, std::max(0.0, order.gap) + 1e-9 * largest, team);
+  const PairTable pairs = find_pairs(balls, cell, std::max(0.0, order.gap) + 1e-9 * largest, team, isa);
   const uint16_t* group = balls.group();
   const uint64_t* id = balls.id();
   const std::size_t rules = book.rules.size(), before = fresh_.size() + fresh_walls_.size();

@@ -277,7 +277,7 @@ void Contacts::rebuild(Balls& balls, std::vector<Wall>& walls, const PeriodicCel
   before_.clear();
   std::vector<uint32_t> new_row(moved ? n : 0);
   for (std::size_t row = 0; row < new_row.size(); ++row) new_row[order[row]] = static_cast<uint32_t>(row);
-  const PairTable pairs = find_pairs(balls, cell, skin + book.reach(), team);
+  const PairTable pairs = find_pairs(balls, cell, skin + book.reach(), team, isa);
   lay_out_lists();
   const BondTable bonds = bond_table(lists_, fresh_, book, old_row, n);
   fresh_.clear();

@@ -99,14 +99,25 @@ double sum_of(double along, double across, double twist, double bending, double 
 
 }  // namespace
 
-Crowd::Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, double depth, Team& team)
-    : depth_(depth), loose_(book.groups(), 0) {
+Crowd::Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team)
+    : loose_(book.groups(), 0) {
   sort(balls);
-  refuse_loose(book, balls, cell, team);
-  if (unknown_.empty()) weigh(book);
+  look_for_loose(book, balls, cell, team);
+}
+
+void Crowd::take(const RuleBook& book, const Balls& balls, double depth) {
+  depth_ = depth;
+  pair_step_ = 0;
+  unknown_.clear();
+  if (loose_moves_) unknown_ = "balls that move may overlap others without a force";
+  if (loose_overlap_ > depth) unknown_ = "fixed balls overlap without a force";
+  if (!unknown_.empty()) return;
+  sort(balls);
+  weigh(book);
 }
 
 void Crowd::sort(const Balls& balls) {
+  classes_.clear();
   struct Range {
     double low = std::numeric_limits<double>::infinity(), high = 0;
   };
@@ -147,7 +158,7 @@ void Crowd::sort(const Balls& balls) {
 }
 
 // Balls that pass through each other are as many as like round a third one, unless they are fixed and do not overlap.
-void Crowd::refuse_loose(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team) {
+void Crowd::look_for_loose(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team) {
   const std::size_t groups = book.groups();
   std::vector<uint8_t> there(groups, 0);
   for (const Class& c : classes_) there[c.group] = 1;
@@ -163,14 +174,11 @@ void Crowd::refuse_loose(const RuleBook& book, const Balls& balls, const Periodi
       loose_[p] = loose_[q] = 1;
     }
   if (pairs.empty()) return;
-  for (const Class& c : classes_)
-    if (loose_[c.group] && c.moving != no_row) {
-      unknown_ = "balls that move may overlap others without a force";
-      return;
-    }
+  for (const Class& c : classes_) loose_moves_ = loose_moves_ || (loose_[c.group] && c.moving != no_row);
+  if (loose_moves_) return;
   const PairTable near = find_pairs(balls, cell, 0, team);
   const double *x = balls[Column::x], *y = balls[Column::y], *z = balls[Column::z], *radius = balls[Column::radius];
-  for (std::size_t row = 0; row < balls.size() && unknown_.empty(); ++row)
+  for (std::size_t row = 0; row < balls.size(); ++row)
     for (uint64_t k = near.begin[row]; k < near.begin[row + 1]; ++k) {
       const uint32_t other = near.other[k];
       const std::pair<std::size_t, std::size_t> groups_of =
@@ -183,10 +191,7 @@ void Crowd::refuse_loose(const RuleBook& book, const Balls& balls, const Periodi
         square += way * way;
       }
       const double overlap = radius[row] + radius[other] - std::sqrt(square);
-      if (overlap > depth_ * std::min(radius[row], radius[other])) {
-        unknown_ = "fixed balls overlap without a force";
-        break;
-      }
+      loose_overlap_ = std::max(loose_overlap_, overlap / std::min(radius[row], radius[other]));
     }
   resting_ = at_rest(balls);
 }

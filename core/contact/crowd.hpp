@@ -17,8 +17,10 @@ namespace scree::core {
 /// its rules allow down to there. Costs nothing while balls move. Bonds and walls are not in it.
 class Crowd {
  public:
-  /// `depth`: share of the smaller radius that no two balls overlap by.
-  Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, double depth, Team& team);
+  /// Looks at which balls may overlap others without a force. `take` must follow.
+  Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team);
+  /// The same balls, in whatever order of rows. `depth`: share of the smaller radius that no two of them overlap by.
+  void take(const RuleBook& book, const Balls& balls, double depth);
   /// Why there is no such limit for these rules and balls; "" where there is one.
   const std::string& unknown() const { return unknown_; }
   double depth() const { return depth_; }
@@ -48,11 +50,12 @@ class Crowd {
     Load load;
   };
   void sort(const Balls& balls);
-  void refuse_loose(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team);
+  void look_for_loose(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team);
   void weigh(const RuleBook& book);
   uint64_t at_rest(const Balls& balls) const;
 
-  double depth_;
+  double depth_ = 0, loose_overlap_ = 0;  ///< of the smaller radius
+  bool loose_moves_ = false;
   std::string unknown_;
   std::vector<Class> classes_;
   std::vector<uint8_t> loose_;  ///< by group: its balls may overlap others without a force

@@ -18,27 +18,10 @@ struct PairTable {
   std::size_t size() const { return other.size(); }
 };
 
-/// One level of the hierarchical hash: a grid that wraps around in every direction, so its size follows the number of
-/// balls and not the space they spread over; balls that fold onto each other are told apart by distance.
-class Grid {
- public:
-  /// `rows` are the balls of this level, ascending.
-  void build(const Balls& balls, const PeriodicCell& cell, const std::vector<uint32_t>& rows, double edge);
-  bool empty() const { return rows_.empty(); }
-  /// Calls f(row) for every ball of this level in the up to 27 cells around a point.
-  template <class F>
-  void around(const double point[3], F f) const;
-
- private:
-  int64_t coordinate(double value, int axis) const;
-  double edge_[3] = {1, 1, 1}, low_[3] = {0, 0, 0};
-  int64_t count_[3] = {1, 1, 1};
-  Array<uint32_t> begin_, rows_;
-};
-
 /// Finds the pairs whose surfaces are nearer than `margin`, for centres that lie inside the cell on periodic axes.
-/// A level holds radii within a factor of two; a ball looks in its own level and in coarser ones.
-PairTable find_pairs(const Balls& balls, const PeriodicCell& cell, double margin, Team& team);
+/// A level holds radii within a factor of two; a ball looks in its own level and in coarser ones. The same for any
+/// instruction set (as of core/base/isa.hpp) and number of threads.
+PairTable find_pairs(const Balls& balls, const PeriodicCell& cell, double margin, Team& team, int isa = 0);
 
 /// Row order that keeps neighbours close in memory: along a Morton curve of cells with this edge, then by id.
 std::vector<uint32_t> spatial_order(const Balls& balls, double edge);

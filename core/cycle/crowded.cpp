@@ -40,8 +40,8 @@ bool Engine::know_crowd() {
     crowd_use_.depth = rounded_up(grain * largest_overlap());
     crowd_use_.since = clock.cycle;
   }
-  if (!crowd_ || crowd_->depth() != crowd_use_.depth || !crowd_->still(balls))
-    crowd_ = std::make_unique<Crowd>(contacts.book, balls, cell, crowd_use_.depth, team);
+  if (!crowd_ || !crowd_->still(balls)) crowd_ = std::make_unique<Crowd>(contacts.book, balls, cell, team);
+  if (crowd_->depth() != crowd_use_.depth) crowd_->take(contacts.book, balls, crowd_use_.depth);
   return crowd_->unknown().empty();
 }
 

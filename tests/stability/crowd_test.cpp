@@ -12,7 +12,9 @@ namespace {
 
 Crowd crowd_of(Simulation& simulation, double depth) {
   Engine& engine = simulation.engine;
-  return {engine.contacts.book, engine.balls, engine.cell, depth, engine.team};
+  Crowd crowd(engine.contacts.book, engine.balls, engine.cell, engine.team);
+  crowd.take(engine.contacts.book, engine.balls, depth);
+  return crowd;
 }
 
 /// A ball and twelve round it, as in the densest lattice; they overlap by 1e-6 of the radius.

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/base/isa.hpp"
 #include "core/base/philox.hpp"
 #include "core/contact/pair_search.hpp"
 #include "support/catch.hpp"
@@ -65,9 +66,9 @@ std::vector<Pair> brute_force(const Set& set) {
   return pairs;
 }
 
-std::vector<Pair> found(const Set& set, unsigned threads) {
+std::vector<Pair> found(const Set& set, unsigned threads, int isa) {
   Team team(threads);
-  const PairTable table = find_pairs(set.balls, set.cell, set.margin, team);
+  const PairTable table = find_pairs(set.balls, set.cell, set.margin, team, isa);
   REQUIRE(table.begin.size() == set.balls.size() + 1);
   std::vector<Pair> pairs;
   for (uint32_t row = 0; row < set.balls.size(); ++row)
@@ -79,11 +80,12 @@ std::vector<Pair> found(const Set& set, unsigned threads) {
 void compare(const Set& set, std::size_t at_least) {
   const std::vector<Pair> expected = brute_force(set);
   CHECK(expected.size() >= at_least);
-  for (const unsigned threads : {1u, 3u}) {
-    INFO(threads << " threads, " << set.balls.size() << " balls");
-    // In row order already: sorted, and each pair once.
-    CHECK(found(set, threads) == expected);
-  }
+  for (const unsigned threads : {1u, 3u})
+    for (int isa = 0; isa <= static_cast<int>(detect_isa()); ++isa) {
+      INFO(threads << " threads, " << set.balls.size() << " balls, " << isa_name(static_cast<Isa>(isa)));
+      // In row order already: sorted, and each pair once.
+      CHECK(found(set, threads, isa) == expected);
+    }
 }
 
 }  // namespace
