@@ -9,6 +9,7 @@
 #include "core/base/heap.hpp"
 #include "core/base/isa.hpp"
 #include "core/run/summary.hpp"
+#include "laws.hpp"
 #include "outside.hpp"
 #include "packing.hpp"
 #include "sizes.hpp"
@@ -17,6 +18,7 @@
 // scree_bench quick      the smallest size only
 // scree_bench memory N   peak memory of one packing of N balls, for the slope between two sizes
 // scree_bench outside COPY DIR [LIMIT]   the law `linear` and its copy of that name in the plug-in folder DIR, in turns
+// scree_bench laws       the dense packing under each law, bonded too, one thread
 // scree_bench sizes      a layer of balls on one 100 times as large beside equal balls, in turns
 // Friction and no friction are run in turn and their ratio is the median over the rounds: the machine's mood cancels.
 
@@ -68,6 +70,10 @@ int main(int count, char** words) {
     double value = 1.03;
     std::from_chars(limit, limit + std::strlen(limit), value);
     return scree::bench::compare_laws("linear", words[2], value, with_copy);
+  }
+  if (what == "laws") {
+    scree::bench::compare_all_laws(catalogue);
+    return 0;
   }
   if (what == "sizes") {
     scree::bench::compare_sizes(catalogue);

@@ -37,17 +37,20 @@ void write_balls(const std::filesystem::path& folder, int cells, double edge) {
         }
 }
 
-std::string scene_text(double length, const std::string& balls, const std::string& model, bool friction,
-                       bool settling) {
+std::string law_of(const Setting& setting) {
+  if (!setting.law.empty()) return setting.law;
+  return "model: " + setting.model + ", kn: 2000, ks: " + (setting.friction ? "571.4286, fric: 0.5" : "0, fric: 0") +
+         ", dp_nratio: 0.4";
+}
+
+std::string scene_text(double length, const std::string& balls, const Setting& setting, bool settling) {
   const std::string edge = std::to_string(length);
   return "scree: 1\ntitle: dense packing\ntimestep: 1.0e-3\nskin: 0.1\ncell: {low: [0, 0, 0], high: [" + edge + ", " +
          edge + ", " + edge + "], periodic: [x, y, z]}\nballs:\n  grains: {generator: file, path: " + balls +
-         ", density: 1.909859}\ncontacts:\n  - {name: grains, between: [grains, grains], model: " + model +
-         ", kn: 2000, "
-         "ks: " +
-         (friction ? "571.4286, fric: 0.5" : "0, fric: 0") + ", dp_nratio: 0.4}\n" +
-         (settling ? "processes:\n  calm: {process: local_damping, factor: 0.7}\n" : "") +
-         "stages:\n  - go: [cycle: 1]\n";
+         ", density: 1.909859}\ncontacts:\n  - {name: grains, between: [grains, grains], " + law_of(setting) + "}\n" +
+         (settling ? "processes:\n  calm: {process: local_damping, factor: 0.7}\n" : "") + "stages:\n  - go: [" +
+         (setting.bond_gap > 0 ? "bond: {rule: grains, gap: " + std::to_string(setting.bond_gap) + "}" : "cycle: 1") +
+         "]\n";
 }
 
 std::unique_ptr<core::Simulation> simulation_of(const std::filesystem::path& folder, const std::string& text,
@@ -63,17 +66,20 @@ std::unique_ptr<core::Simulation> simulation_of(const std::filesystem::path& fol
   return simulation;
 }
 
-std::string settled_file(bool friction) { return friction ? "settled_rough.csv" : "settled_smooth.csv"; }
+// By law: what is timed has come to rest under it.
+std::string settled_file(const Setting& setting) {
+  const std::size_t of_law = std::hash<std::string>()(setting.law);
+  return "settled_" + (setting.law.empty() ? setting.friction ? "rough" : "smooth" : std::to_string(of_law)) + ".csv";
+}
 
 // The lattice comes to rest once per size under the law that is timed: a packing that still moves rebuilds its lists
 // more often.
 void settle(const std::filesystem::path& folder, double length, const Setting& setting, core::Catalogue& catalogue) {
-  const auto simulation =
-      simulation_of(folder, scene_text(length, "balls.csv", setting.model, setting.friction, true), setting, catalogue);
+  const auto simulation = simulation_of(folder, scene_text(length, "balls.csv", setting, true), setting, catalogue);
   const core::Balls& balls = simulation->engine.balls;
   const std::size_t cycles = std::clamp<std::size_t>(150000000 / balls.size(), 600, 10000);
   for (std::size_t cycle = 0; cycle < cycles; ++cycle) simulation->engine.advance();
-  std::ofstream file(folder / settled_file(setting.friction));
+  std::ofstream file(folder / settled_file(setting));
   file.precision(17);
   file << "x,y,z,r\n";
   for (std::size_t row = 0; row < balls.size(); ++row)
@@ -94,14 +100,17 @@ std::unique_ptr<core::Simulation> dense_packing(const Setting& setting, core::Ca
   const double edge = 1.145;  // a little less than touching at the mean size: six of the eight neighbours touch
   const auto folder = std::filesystem::temp_directory_path() / ("scree_bench_" + std::to_string(setting.balls));
   std::filesystem::create_directories(folder);
-  static std::set<std::pair<std::size_t, bool>> settled;
-  if (settled.insert({setting.balls, setting.friction}).second) {
+  static std::set<std::pair<std::size_t, std::string>> settled;
+  if (settled.insert({setting.balls, settled_file(setting)}).second) {
     write_balls(folder, cells, edge);
     settle(folder, cells * edge, setting, catalogue);
   }
-  auto simulation = simulation_of(
-      folder, scene_text(cells * edge, settled_file(setting.friction), setting.model, setting.friction, false), setting,
-      catalogue);
+  auto simulation =
+      simulation_of(folder, scene_text(cells * edge, settled_file(setting), setting, false), setting, catalogue);
+  if (setting.bond_gap > 0) {
+    simulation->engine.forces();
+    simulation->edit(simulation->scene.stages[0].actions[0]);
+  }
   for (int cycle = 0; cycle < 40; ++cycle) simulation->engine.advance();
   return simulation;
 }
