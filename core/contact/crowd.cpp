@@ -17,7 +17,8 @@ namespace scree::core {
 
 namespace {
 
-constexpr std::size_t sizes = 16;  ///< classes of radius in a group
+/// Classes of radius in a group, at most, and of all balls: every two of them are tried.
+constexpr std::size_t most_sizes = 16, most_classes = 64;
 
 /// The most that the contacts of a class of balls do, one by one, each as often as it counts.
 struct Most {
@@ -102,13 +103,14 @@ double sum_of(double along, double across, double twist, double bending, double 
 Crowd::Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team)
     : loose_(book.groups(), 0) {
   sort(balls);
-  look_for_loose(book, balls, cell, team);
+  if (classes_.size() <= most_classes) look_for_loose(book, balls, cell, team);
 }
 
 void Crowd::take(const RuleBook& book, const Balls& balls, double depth) {
   depth_ = depth;
   pair_step_ = 0;
   unknown_.clear();
+  if (classes_.size() > most_classes) unknown_ = "the balls are of too many groups";
   if (loose_moves_) unknown_ = "balls that move may overlap others without a force";
   if (loose_overlap_ > depth) unknown_ = "fixed balls overlap without a force";
   if (!unknown_.empty()) return;
@@ -118,6 +120,10 @@ void Crowd::take(const RuleBook& book, const Balls& balls, double depth) {
 
 void Crowd::sort(const Balls& balls) {
   classes_.clear();
+  std::vector<uint8_t> there(loose_.size(), 0);
+  for (std::size_t row = 0; row < balls.size(); ++row) there[balls.group()[row]] = 1;
+  const auto groups = static_cast<std::size_t>(std::count(there.begin(), there.end(), 1));
+  const std::size_t sizes = std::clamp<std::size_t>(most_classes / std::max<std::size_t>(1, groups), 1, most_sizes);
   struct Range {
     double low = std::numeric_limits<double>::infinity(), high = 0;
   };

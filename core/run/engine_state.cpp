@@ -121,6 +121,7 @@ Engine::Loop read_loop(const ArchiveReader& archive, bool built) {
   loop.crowd.asked = in.u64();
   loop.crowd.refused = in.flag();
   loop.crowd.rests = in.flag();
+  if (!(loop.crowd.depth >= 0 && loop.crowd.depth < 1e6)) in.refuse("overlaps of the step's limit make no sense");
   if (loop.schedule.made > 1000) in.refuse("an estimate of the step makes no sense");
   in.finish();
   if (loop.forces_current != 0 && !built) in.refuse("forces without lists");

@@ -173,6 +173,12 @@ TEST_CASE("step OK: what balls could do in a crowd is not said where it is not k
                  springs + "}\n  - {name: own, between: [one, one], model: none}\n"),
              Catch::Contains("may overlap others without a force"));
   CHECK_THAT(why(scene_of(springs), 3), Catch::Contains("so deep an overlap"));
+  std::string many = "scree: 1\nballs:\n";
+  for (int k = 0; k < 65; ++k)
+    many += "  g" + std::to_string(k) + ": {generator: lattice, kind: sc, radius: 10 mm, box: [[0, 0, " +
+            std::to_string(20 * k) + " mm], [20 mm, 20 mm, " + std::to_string(20 * k + 20) + " mm]], density: 2500}\n";
+  CHECK_THAT(why(many + "contacts:\n  - {name: all, between: [balls, balls], " + springs + "}\n"),
+             Catch::Contains("too many groups"));
 }
 
 TEST_CASE("step OK: a fast flow takes the step that the room round each ball allows, and flows as with a fine one") {
