@@ -271,6 +271,11 @@ Explanation explain(const Simulation& simulation) {
   out.per_contact = contact_storage(engine);
   if (!engine.walls.empty())
     out.per_wall_contact = {{"record", "ball, patch, normal of the last pass", sizeof(WallSlot)}};
+  const RuleBook& book = engine.contacts.book;
+  for (std::size_t wall = 0; wall < std::min(engine.walls.size(), book.walls()); ++wall)
+    for (std::size_t rule = 0; rule < book.rules.size(); ++rule)
+      if (out.per_wall_contact.size() == 1 && book.rules[rule].can_bond() && meets(book, wall, rule))
+        out.per_wall_contact.push_back({"bond", "where it holds; of a bonded contact only", sizeof(WallBond)});
   out.left_out = left_out(simulation);
   out.step = step_of(engine);
   for (const Stage& stage : simulation.scene.stages) out.stages.push_back(length_of(stage, engine.step.step()));

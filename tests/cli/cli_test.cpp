@@ -247,6 +247,12 @@ TEST_CASE("explain counts the bytes of a ball and of a contact") {
   CHECK(lean.at("per_contact").at(0).at("bytes") == 9);
   CHECK(full.at("per_contact").at(0).at("bytes") == 9 + 3 * 8);
   CHECK(lean.at("timestep").at("automatic") == true);
+  // A bond with a wall also knows a point of its plane, its normal and a distance, 7 doubles and a flag.
+  CHECK(full.at("per_wall_contact").size() == 1);
+  std::string bonds = scene(frictional + ", cb_tenf: 1, cb_shearf: 1");
+  bonds.replace(bonds.find("model: linear"), 13, "model: contact_bond");
+  const Json bonded = Json::parse(at.with(bonds, {"explain", "--json", "scene.yaml"}).out);
+  CHECK(bonded.at("per_wall_contact").at(1).at("bytes") == 8 * 8);
 }
 
 TEST_CASE("run ends with its result on stdout") {
