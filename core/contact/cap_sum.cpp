@@ -1,6 +1,7 @@
 #include "core/contact/cap_sum.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace scree::core {
 
@@ -13,20 +14,10 @@ double cap_sum(const ContactShape& one, double cosine) {
   const double along = mean_u + 2 * apart_u / 3, twist = mean_w + 2 * apart_w / 3;
   const double across = mean_u - apart_u / 3, bend = mean_w - apart_w / 3, mixed = one.mixed / first;
   const double least_u = mean_u + std::max(0.0, -along) / 3, least_w = mean_w + std::max(0.0, -twist) / 3;
-  const auto enough = [&](double most) {
-    const double a = across + 1.5 * (most - least_u), b = bend + 1.5 * (most - least_w);
-    return a >= 0 && b >= 0 && a * b >= mixed * mixed;
-  };
-  double low = std::max(least_u, least_w);
-  if (enough(low)) return caps(cosine) * low;
-  double high = low;
-  do high *= 2;
-  while (!enough(high) && high < 1e300);
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (low + high);
-    (enough(middle) ? high : low) = middle;
-  }
-  return caps(cosine) * high;
+  // (across + t)(bend + t) = mixed^2 with what both are given more, t, and no less than they lack by themselves.
+  const double a = across - 1.5 * least_u, b = bend - 1.5 * least_w;
+  const double more = 0.5 * (std::sqrt((a - b) * (a - b) + 4 * mixed * mixed) - a - b);
+  return caps(cosine) * std::max({least_u, least_w, more / 1.5});
 }
 
 }  // namespace scree::core

@@ -20,13 +20,6 @@ namespace {
 /// Classes of radius in a group, at most, and of all balls: every two of them are tried.
 constexpr std::size_t most_sizes = 16, most_classes = 64;
 
-/// The most that the contacts of a class of balls do, one by one, each as often as it counts.
-struct Most {
-  double normal = 0, shear = 0, bending = 0, twist = 0;
-  double dashpot_normal = 0, dashpot_shear = 0;
-  double reach = 0, smallest = std::numeric_limits<double>::infinity();  ///< m; of those that it touches, radius
-};
-
 const BoundRule* law_between(const RuleBook& book, std::size_t a, std::size_t b) {
   const uint16_t index = book.balls(static_cast<uint16_t>(a), static_cast<uint16_t>(b));
   return index == no_rule || book.rules[index].model == nullptr ? nullptr : &book.rules[index];
@@ -42,7 +35,8 @@ class Trials {
     for (const double gap : {-depth_ * least, -1e-9 * least}) load_trial(rule, birth, gap, n_++, *s_);
   }
   /// `times`: how often a contact counts for the ball. The stiffest normal spring, without that.
-  double raise(const BoundRule& rule, double times, Most& most) {
+  template <class Class>
+  double raise(const BoundRule& rule, double times, Class& most) {
     tangents(rule, n_, false, *s_, t_);
     double stiffest = 0;
     const auto raise = [&](double& held, double now) { held = std::max(held, times * now); };
@@ -84,20 +78,6 @@ class Trials {
   Tangents t_;
 };
 
-/// Springs or dashpots of one contact of a ball of this radius, whose arm lies between two lengths.
-double sum_of(double along, double across, double twist, double bending, double radius, std::pair<double, double> arm,
-              double cosine) {
-  const double per = 2.5 / (radius * radius);
-  ContactShape one;
-  one.along = along;
-  // Contacts of shorter arm: (x + t y)^2 with t below 1 is at most (x + y)^2 + (1 - t)/(1 + t) x^2.
-  one.across = across * (1 + (arm.second - arm.first) / (arm.second + arm.first));
-  one.twist = per * twist;
-  one.bend = per * (across * arm.second * arm.second + bending);
-  one.mixed = std::sqrt(per) * across * arm.second;
-  return cap_sum(one, cosine);
-}
-
 }  // namespace
 
 Crowd::Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell, Team& team)
@@ -106,9 +86,11 @@ Crowd::Crowd(const RuleBook& book, const Balls& balls, const PeriodicCell& cell,
   if (classes_.size() <= most_classes) look_for_loose(book, balls, cell, team);
 }
 
-void Crowd::take(const RuleBook& book, const Balls& balls, double depth) {
+void Crowd::take(const RuleBook& book, const Balls& balls, double depth, double local_damping) {
   depth_ = depth;
+  local_damping_ = local_damping;
   pair_step_ = 0;
+  bound_ = {};
   unknown_.clear();
   if (classes_.size() > most_classes) unknown_ = "the balls are of too many groups";
   if (loose_moves_) unknown_ = "balls that move may overlap others without a force";
@@ -116,6 +98,7 @@ void Crowd::take(const RuleBook& book, const Balls& balls, double depth) {
   if (!unknown_.empty()) return;
   sort(balls);
   weigh(book);
+  if (unknown_.empty()) find_bound();
 }
 
 void Crowd::sort(const Balls& balls) {
@@ -216,20 +199,19 @@ uint64_t Crowd::at_rest(const Balls& balls) const {
 void Crowd::weigh(const RuleBook& book) {
   const auto refuse = [&](const std::string& why) { unknown_ = why; };
   Trials trials(depth_);
+  std::vector<uint8_t> asked(book.rules.size(), 0);
   bool constant = true, any = false;
   double pair_square = std::numeric_limits<double>::infinity();
   for (Class& c : classes_) {
-    if (c.moving == no_row) continue;
-    Most most;
+    double smallest = std::numeric_limits<double>::infinity();
     for (const Class& p : classes_) {
-      const BoundRule* rule = law_between(book, c.group, p.group);
+      const BoundRule* rule = c.moving == no_row ? nullptr : law_between(book, c.group, p.group);
       if (rule == nullptr) continue;
       if (rule->drawn) return refuse("properties of rule '" + rule->name + "' differ from contact to contact");
       Birth birth;
       birth.row1 = c.moving;
       birth.row2 = p.row;
       birth.mass = 1 / (1 / c.most_mass + (p.fixed ? 0 : 1 / p.most_mass));
-      Most here = most;
       for (const double a : {c.low, c.high})
         for (const double b : {p.low, p.high}) {
           birth.r1 = a;
@@ -237,82 +219,116 @@ void Crowd::weigh(const RuleBook& book) {
           trials.add(*rule, birth);
         }
       // Weights as the network's where they are equal: a contact with what does not move counts once.
-      const double stiffest = trials.raise(*rule, p.moving == no_row ? 1 : 2, here);
-      if (trials.remembers(*rule, birth))
+      const double stiffest = trials.raise(*rule, p.moving == no_row ? 1 : 2, c);
+      uint8_t& known = asked[static_cast<std::size_t>(rule - book.rules.data())];
+      if (known == 0 && trials.remembers(*rule, birth))
         return refuse("the stiffness of rule '" + rule->name + "' follows from what a contact remembers");
-      here.reach = std::max(most.reach, rule->reach);
-      here.smallest = std::min(most.smallest, p.low);
+      known = 1;
+      c.reach = std::max(c.reach, rule->reach);
+      smallest = std::min(smallest, p.low);
       constant = constant && (rule->model->flags & SCREE_NONLINEAR) == 0;
-      most = here;
       const double yielding = 1 / c.least_mass + (p.moving == no_row ? 0 : 1 / p.least_mass);
       if (stiffest > 0) pair_square = std::min(pair_square, 1 / (stiffest * yielding));
     }
-    if (!(most.normal + most.shear + most.bending + most.twist > 0)) continue;
-    const double nearest = 2 * most.smallest * (1 - depth_ / 2), far = c.high + most.smallest + most.reach;
-    // Of two neighbours at most `far` away and at least `nearest` apart the angle is least where both are far, unless
-    // one could be much nearer than the other.
-    if (depth_ * most.smallest + most.reach > nearest * nearest / far || nearest >= 2 * far)
-      return refuse("balls are small beside others for so deep an overlap");
-    const double sine = nearest / (2 * far), cosine = std::sqrt(1 - sine * sine), times = 1 / c.least_mass;
-    const std::pair<double, double> arm(c.low * (1 - depth_ / 2), c.low + most.reach / 2);
-    c.load = {times * sum_of(most.normal, most.shear, most.twist, most.bending, c.low, arm, cosine),
-              times * sum_of(most.dashpot_normal, most.dashpot_shear, 0, 0, c.low, arm, cosine)};
-    if (!std::isfinite(c.load.stiffness + c.load.damping)) return refuse("the stiffness of a contact is not finite");
+    if (!(c.normal + c.shear + c.bending + c.twist > 0)) continue;
+    if (!std::isfinite(c.normal + c.shear + c.bending + c.twist + c.dashpot_normal + c.dashpot_shear))
+      return refuse("the stiffness of a contact is not finite");
+    find_room(c, smallest);
+    if (c.cosine == 0) return refuse("balls are small beside others for so deep an overlap");
     any = true;
   }
   if (!any) return refuse("no ball that moves can touch another");
   if (constant) pair_step_ = 2 * std::sqrt(pair_square);
 }
 
-StepBound Crowd::bound(double local_damping) const {
-  StepBound least;
-  if (!unknown_.empty()) return least;
-  const double limit = 1 / (1 + local_damping);
-  for (const Class& c : classes_) {
-    if (!(c.load.stiffness > 0)) continue;
-    // h^2 stiffness + h damping = limit.
-    const double half =
-        2 * limit / (c.load.damping + std::sqrt(c.load.damping * c.load.damping + 4 * limit * c.load.stiffness));
-    least = smaller(least, {2 * half, c.id, 0, "", "crowd", false});
-  }
-  return least;
+// Of two neighbours at most `far` away and at least `nearest` apart the angle is least where both are far, unless one
+// could be much nearer than the other.
+void Crowd::find_room(Class& c, double smallest) {
+  const double nearest = 2 * smallest * (1 - depth_ / 2), far = c.high + smallest + c.reach;
+  if (depth_ * smallest + c.reach > nearest * nearest / far || nearest >= 2 * far) return;
+  const double sine = nearest / (2 * far);
+  c.cosine = std::sqrt(1 - sine * sine);
 }
 
-Crowd::Load Crowd::load(uint16_t group, double radius) const {
-  Load most;
+double Crowd::share(const Class& c, double h) const {
+  const double least_arm = c.low * (1 - depth_ / 2), arm = c.low + c.reach / 2, per = 2.5 / (c.low * c.low);
+  const double across = h * (h * c.shear + c.dashpot_shear);
+  ContactShape one;
+  one.along = h * (h * c.normal + c.dashpot_normal);
+  // Contacts of shorter arm: (x + t y)^2 with t below 1 is at most (x + y)^2 + (1 - t)/(1 + t) x^2.
+  one.across = across * (1 + (arm - least_arm) / (arm + least_arm));
+  one.twist = per * h * h * c.twist;
+  one.bend = per * (across * arm * arm + h * h * c.bending);
+  one.mixed = std::sqrt(per) * across * arm;
+  return cap_sum(one, c.cosine) / c.least_mass;
+}
+
+void Crowd::find_bound() {
+  const double limit = 1 / (1 + local_damping_);
   for (const Class& c : classes_) {
-    if (c.group != group || radius < c.low || radius > c.high) continue;
-    most.stiffness = std::max(most.stiffness, c.load.stiffness);
-    most.damping = std::max(most.damping, c.load.damping);
+    if (c.cosine == 0) continue;
+    double low = 0, high = 1;
+    // It grows at most with the square of h.
+    while (share(c, high) < limit) high *= 2;
+    while (share(c, high) > 4 * limit) high /= 2;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (low + high);
+      (share(c, middle) < limit ? low : high) = middle;
+    }
+    bound_ = smaller(bound_, {2 * low, c.id, 0, "", "crowd", false});
   }
+}
+
+double Crowd::share(uint16_t group, double radius, double h) const {
+  double most = 0;
+  for (const Class& c : classes_)
+    if (c.cosine > 0 && c.group == group && radius >= c.low && radius <= c.high) most = std::max(most, share(c, h));
   return most;
 }
 
+namespace {
+
+/// A ball at walls: what they add to its block, and the balls round it.
+struct AtWalls {
+  Block stiffness = Block::Zero(), damping = Block::Zero();
+  const Crowd* crowd;
+  uint16_t group;
+  double radius;
+  bool bears(double h, double limit) const {
+    Block all = h * h * stiffness + h * damping;
+    all.diagonal().array() += crowd->share(group, radius, h);
+    return stable(all, Block::Zero(), 1, limit);
+  }
+};
+
+}  // namespace
+
 StepBound crowd_at_walls(const Crowd& crowd, const std::vector<Link>& with_walls, const Balls& balls,
-                         const std::vector<Wall>& walls, double local_damping) {
-  StepBound bound = crowd.bound(local_damping);
+                         const std::vector<Wall>& walls) {
+  StepBound bound = crowd.bound();
   std::vector<const Link*> order;
   for (const Link& link : with_walls) order.push_back(&link);
   std::stable_sort(order.begin(), order.end(), [](const Link* a, const Link* b) { return a->row[0] < b->row[0]; });
-  const double limit = 1 / (1 + local_damping);
+  const double limit = 1 / (1 + crowd.local_damping());
   for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
     const uint32_t row = order[first]->row[0];
-    const double inverse = balls[Column::inverse_mass][row], radius = balls[Column::radius][row];
-    const Crowd::Load others = crowd.load(balls.group()[row], radius);
-    Block stiffness = others.stiffness * Block::Identity(), damping = others.damping * Block::Identity();
+    AtWalls ball;
+    ball.crowd = &crowd;
+    ball.group = balls.group()[row];
+    ball.radius = balls[Column::radius][row];
     for (; last < order.size() && order[last]->row[0] == row; ++last) {
       const Link& link = *order[last];
-      add_end(stiffness, link, 0, link.kn, link.ks, link.kb, link.kt, inverse, radius);
-      add_end(damping, link, 0, link.cn, link.cs, 0, 0, inverse, radius);
+      const double inverse = balls[Column::inverse_mass][row];
+      add_end(ball.stiffness, link, 0, link.kn, link.ks, link.kb, link.kt, inverse, ball.radius);
+      add_end(ball.damping, link, 0, link.cn, link.cs, 0, 0, inverse, ball.radius);
     }
-    if (bound.step > 0 && stable(stiffness, damping, 0.5 * bound.step, limit)) continue;
-    const double high = bound.step > 0 ? 0.5 * bound.step : 1.01 * std::sqrt(limit / nearly_largest(stiffness));
-    bound = {2 * largest_stable(stiffness, damping, high, limit),
-             balls.id()[row],
-             0,
-             walls[order[first]->wall].name,
-             "crowd",
-             false};
+    double low = 0, high = 0.5 * bound.step;
+    if (ball.bears(high, limit)) continue;
+    for (int k = 0; k < 40; ++k) {
+      const double middle = 0.5 * (low + high);
+      (ball.bears(middle, limit) ? low : high) = middle;
+    }
+    bound = {2 * low, balls.id()[row], 0, walls[order[first]->wall].name, "crowd", false};
   }
   return bound;
 }

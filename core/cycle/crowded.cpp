@@ -41,27 +41,23 @@ bool Engine::know_crowd() {
     crowd_use_.since = clock.cycle;
   }
   if (!crowd_ || !crowd_->still(balls)) crowd_ = std::make_unique<Crowd>(contacts.book, balls, cell, team);
-  if (crowd_->depth() != crowd_use_.depth) crowd_->take(contacts.book, balls, crowd_use_.depth);
+  const double damping = local_damping();
+  if (crowd_->depth() != crowd_use_.depth || crowd_->local_damping() != damping)
+    crowd_->take(contacts.book, balls, crowd_use_.depth, damping);
   return crowd_->unknown().empty();
 }
 
-// Where nothing but a look at the contacts can tell: does an estimate give so much more that it is worth its price?
-bool Engine::estimates_pay(const LinkQuery& links, double damping, double crowd_step, double price) {
-  if (crowd_use_.rests == 0) {  // the step of now comes from an estimate
-    crowd_use_.asked = clock.cycle;
-    return crowd_step * price < step.holding();
-  }
+// Would estimates allow so much more that they are worth their price? Only a look at the contacts can tell.
+bool Engine::estimates_pay(const LinkQuery& links, double damping, double wanted) {
   if (clock.cycle - crowd_use_.asked < asking) return false;
   crowd_use_.asked = clock.cycle;
-  crowd_use_.refused =
-      step_holds(contacts, balls, walls, cell, links, damping, crowd_step * price, 1, team).holds ? 1 : 0;
+  crowd_use_.refused = step_holds(contacts, balls, walls, cell, links, damping, wanted, 1, team).holds ? 1 : 0;
   return crowd_use_.refused != 0;
 }
 
 std::optional<StepBound> Engine::crowded(const NetworkQuery& query, uint64_t lasted) {
   const bool fast = query.sweeps == 0 && lasted < close_together && step.automatic() && step.step() > 0;
-  if (!fast || (crowd_use_.refused != 0 && clock.cycle - crowd_use_.asked < asking) || !know_crowd()) return {};
-  crowd_use_.refused = 0;
+  if (!fast || !know_crowd()) return {};
   std::size_t wall_slots = 0;
   for (const WallList& list : contacts.wall_lists()) wall_slots += list.slots.size();
   const double ends = static_cast<double>(2 * contacts.active() + wall_slots);
@@ -70,18 +66,30 @@ std::optional<StepBound> Engine::crowded(const NetworkQuery& query, uint64_t las
   links.birth_depth = birth_depth;
   links.impact_share = step.accurate ? accurate_share : few ? impact_share : 0.0;
   const Links with_walls = wall_links(contacts, balls, walls, cell, links, team);
-  StepBound bound = crowd_at_walls(*crowd_, with_walls.links, balls, walls, query.local_damping);
+  StepBound bound = crowd_at_walls(*crowd_, with_walls.links, balls, walls);
   if (links.impact_share > 0) {
     if (!(crowd_->pair_step() > 0)) return {};
     bound = smaller(bound, {links.impact_share * crowd_->pair_step(), bound.ball, 0, "", "pair", false});
   }
-  const double price = 1 + std::min(most_price, estimate_cost / static_cast<double>(std::max<uint64_t>(1, lasted)));
-  if (estimates_pay(links, query.local_damping, bound.step, price)) return {};
+  // For a while the estimates that were found worth their price are kept, unless the room would let the step rise.
+  const bool again = clock.cycle - crowd_use_.asked >= asking || bound.step > StepControl::rise * step.holding();
+  if (crowd_use_.refused != 0 && !again) return {};
+  crowd_use_.refused = 0;
+  // What it must give up for estimates to pay.
+  const double wanted =
+      bound.step * (1 + std::min(most_price, estimate_cost / static_cast<double>(std::max<uint64_t>(1, lasted))));
+  if (crowd_use_.rests == 0) {  // the step of now comes from an estimate
+    crowd_use_.asked = clock.cycle;
+    if (wanted < step.holding()) return {};
+  }
+  const StepBound others = smaller(smaller(with_walls.impact, with_walls.kinematic),
+                                   soonest_closing(contacts, balls, cell, birth_depth, wanted, team));
+  const bool free = others.step == 0 || others.step > wanted;
+  if (free && estimates_pay(links, query.local_damping, wanted)) return {};
   crowd_use_.rests = 1;
   estimated_ = "the room round each ball, for overlaps of at most " + std::to_string(crowd_use_.depth) +
                " of the radius, and " + std::to_string(with_walls.links.size()) + " contacts with walls";
-  bound = smaller(bound, smaller(with_walls.impact, with_walls.kinematic));
-  return smaller(bound, soonest_closing(contacts, balls, cell, birth_depth, bound.step, team));
+  return smaller(bound, others);
 }
 
 // A deeper overlap lets more balls meet one, and makes laws stiffer that stiffen.

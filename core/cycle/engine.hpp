@@ -158,7 +158,7 @@ class Engine {
   StepBound flight() const;
   std::optional<StepBound> crowded(const NetworkQuery& query, uint64_t lasted);
   bool know_crowd();
-  bool estimates_pay(const LinkQuery& links, double damping, double crowd_step, double price);
+  bool estimates_pay(const LinkQuery& links, double damping, double wanted);
   void watch_depth();
   void check_cell() const;
   double room_for_skin() const;  ///< m, that the edges of the periodic cell leave

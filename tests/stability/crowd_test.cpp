@@ -10,10 +10,10 @@ using namespace scree::core;
 
 namespace {
 
-Crowd crowd_of(Simulation& simulation, double depth) {
+Crowd crowd_of(Simulation& simulation, double depth, double local_damping = 0) {
   Engine& engine = simulation.engine;
   Crowd crowd(engine.contacts.book, engine.balls, engine.cell, engine.team);
-  crowd.take(engine.contacts.book, engine.balls, depth);
+  crowd.take(engine.contacts.book, engine.balls, depth, local_damping);
   return crowd;
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("step OK: the room round a ball allows no step that twelve neighbours 
     const auto simulation = here.make(scene_of(law), cluster(0.01));
     const Crowd crowd = crowd_of(*simulation, 1.5 * networks::overlap);
     REQUIRE(crowd.unknown().empty());
-    const double allowed = crowd.bound(0).step, limit = networks::true_limit(*simulation, 1e-3 * allowed);
+    const double allowed = crowd.bound().step, limit = networks::true_limit(*simulation, 1e-3 * allowed);
     INFO(law << ": allowed " << allowed << " s, critical " << limit << " s");
     CHECK(allowed < limit);
     CHECK(allowed > 0.6 * limit);
@@ -116,10 +116,11 @@ TEST_CASE("step OK: the room round balls that touch a wall allows no step that w
   engine.forces();
   const Links touching = wall_links(engine.contacts, engine.balls, engine.walls, engine.cell, {}, engine.team);
   REQUIRE(touching.links.size() == 4);
-  const StepBound bound = crowd_at_walls(crowd, touching.links, engine.balls, engine.walls, 0);
+  const StepBound bound = crowd_at_walls(crowd, touching.links, engine.balls, engine.walls);
   CHECK(bound.wall == "floor");
-  CHECK(bound.step < crowd.bound(0).step);
-  CHECK(crowd_at_walls(crowd, touching.links, engine.balls, engine.walls, 0.7).step ==
+  CHECK(bound.step < crowd.bound().step);
+  const Crowd damped = crowd_of(*simulation, 1.5 * networks::overlap, 0.7);
+  CHECK(crowd_at_walls(damped, touching.links, engine.balls, engine.walls).step ==
         Approx(bound.step / std::sqrt(1.7)).epsilon(1e-9));
   const double limit = networks::true_limit(*simulation, 1e-3 * bound.step);
   CHECK(bound.step < limit);
@@ -143,7 +144,7 @@ TEST_CASE("step OK: the room round each ball bounds the step at every moment of 
       if (all.links.size() < 600) continue;
       const Crowd crowd = crowd_of(*simulation, engine.largest_overlap());
       REQUIRE(crowd.unknown().empty());
-      const double share = crowd.bound(0).step / networks::limit_by_powers(engine.balls, all);
+      const double share = crowd.bound().step / networks::limit_by_powers(engine.balls, all);
       low = std::min(low, share);
       high = std::max(high, share);
     }
