@@ -21,11 +21,12 @@ struct Sum {
 constexpr double root = 1.5811388300841898;  ///< of 2.5, the mass over the inertia of a sphere of radius 1
 constexpr double rounding = 1e-6;            ///< of the sum, for each contact, with much to spare
 
-/// What one contact adds to the sums of its two balls.
-struct Part {
-  float square[8], vector[4];  ///< of the normal
+/// What the contacts of a batch add to the sums of their two balls.
+struct Parts {
+  static constexpr std::size_t size = LinkColumns::size;
+  float square[size][8], vector[size][4];  ///< of the normal
   struct End {
-    float along, across, twist, turn, mixed;
+    float along[size], across[size], twist[size], turn[size], mixed[size];
   } end[2];
 };
 
@@ -34,13 +35,13 @@ class Question {
   Question(const Contacts& contacts, const Balls& balls, double step)
       : slices_(contacts.slices()), balls_(balls), h_(0.5 * step), sums_(slices_.records()) {}
   /// Links of pairs that a block owns, or of balls of any block with walls.
-  void add(const Link* links, std::size_t count);
+  void add(const LinkColumns& links);
   void fold(std::size_t block);
-  /// Does `share` times the mass bear the sums of all balls of the block?
-  bool bears(std::size_t block, double share) const;
+  /// Does `share` times the mass bear the sums of all balls of the block, and does `less` times the mass?
+  void ask(std::size_t block, double share, double less, uint8_t& all, uint8_t& all_less) const;
 
  private:
-  Part::End end_of(const Link& link, int end) const;
+  void ends_of(const LinkColumns& links, int end, Parts& parts) const;
   bool bears(const Sum& sum, double share) const;
 
   const Slices& slices_;
@@ -50,44 +51,64 @@ class Question {
 };
 
 // As add_end of ball_block.hpp, with dashpots as the springs they are to this step.
-Part::End Question::end_of(const Link& link, int end) const {
-  const uint32_t row = link.row[end], other = link.row[1 - end];
-  const double* inverse = balls_[Column::inverse_mass];
-  if (row == no_row || inverse[row] == 0) return {0, 0, 0, 0, 0};
-  const double times = h_ * (other == no_row || inverse[other] == 0 ? 1.0 : 2.0) * inverse[row];
-  const double per_radius = 1 / balls_[Column::radius][row], arm = link.arm[end] * per_radius;
-  const double kn = times * (h_ * link.kn + link.cn), ks = times * (h_ * link.ks + link.cs);
-  const double per_inertia = 2.5 * per_radius * per_radius * times * h_,
-               turn = 2.5 * ks * arm * arm + per_inertia * link.kb;
-  return {static_cast<float>(kn - ks), static_cast<float>(ks), static_cast<float>(per_inertia * link.kt - turn),
-          static_cast<float>(turn), static_cast<float>((end == 0 ? root : -root) * ks * arm)};
+void Question::ends_of(const LinkColumns& links, int end, Parts& parts) const {
+  const double *inverse = balls_[Column::inverse_mass], *radius = balls_[Column::radius];
+  const auto n = static_cast<uint32_t>(links.count);
+  double times[Parts::size], per_radius[Parts::size];
+  for (uint32_t k = 0; k < n; ++k) {
+    const uint32_t row = links.row[end][k], other = links.row[1 - end][k];
+    const bool none = row == no_row;
+    times[k] = none ? 0.0 : h_ * (other == no_row || inverse[other] == 0 ? 1.0 : 2.0) * inverse[row];
+    per_radius[k] = 1 / (none ? 1.0 : radius[row]);
+  }
+  const double h = h_, side = end == 0 ? root : -root;
+  const double *arm = links.arm[end], *kn = links.kn, *ks = links.ks, *kb = links.kb, *kt = links.kt, *cn = links.cn,
+               *cs = links.cs;
+  float *along = parts.end[end].along, *across = parts.end[end].across, *twist = parts.end[end].twist,
+        *turn = parts.end[end].turn, *mixed = parts.end[end].mixed;
+#pragma omp simd
+  for (uint32_t k = 0; k < n; ++k) {
+    const double lever = arm[k] * per_radius[k], stiff = times[k] * (h * kn[k] + cn[k]),
+                 shear = times[k] * (h * ks[k] + cs[k]),
+                 per_inertia = 2.5 * per_radius[k] * per_radius[k] * times[k] * h,
+                 turned = 2.5 * shear * lever * lever + per_inertia * kb[k];
+    along[k] = static_cast<float>(stiff - shear);
+    across[k] = static_cast<float>(shear);
+    twist[k] = static_cast<float>(per_inertia * kt[k] - turned);
+    turn[k] = static_cast<float>(turned);
+    mixed[k] = static_cast<float>(side * shear * lever);
+  }
 }
 
-void add_part(Sum& sum, const Part& part, const Part::End& end) {
+void add_part(Sum& sum, const Parts& parts, int side, std::size_t k) {
   constexpr float diagonal[8] = {1, 0, 1, 0, 0, 1, 0, 0}, one[4] = {0, 0, 0, 1};
-  for (int k = 0; k < 8; ++k) sum.moved[k] += end.along * part.square[k] + end.across * diagonal[k];
-  for (int k = 0; k < 8; ++k) sum.turned[k] += end.twist * part.square[k] + end.turn * diagonal[k];
-  for (int k = 0; k < 4; ++k) sum.mixed[k] += end.mixed * part.vector[k] + one[k];
+  const Parts::End& end = parts.end[side];
+  const float along = end.along[k], across = end.across[k], twist = end.twist[k], turn = end.turn[k],
+              mixed = end.mixed[k];
+  const float *square = parts.square[k], *vector = parts.vector[k];
+  for (int w = 0; w < 8; ++w) sum.moved[w] += along * square[w] + across * diagonal[w];
+  for (int w = 0; w < 8; ++w) sum.turned[w] += twist * square[w] + turn * diagonal[w];
+  for (int w = 0; w < 4; ++w) sum.mixed[w] += mixed * vector[w] + one[w];
 }
 
 // A vector that is read right after its words were written one by one waits for all of them: first what the links add,
 // then the sums.
-void Question::add(const Link* links, std::size_t count) {
-  Part parts[SCREE_BATCH];
-  for (std::size_t begin = 0; begin < count; begin += SCREE_BATCH) {
-    const std::size_t n = std::min<std::size_t>(SCREE_BATCH, count - begin);
-    for (std::size_t k = 0; k < n; ++k) {
-      const Link& link = links[begin + k];
-      const auto x = static_cast<float>(link.normal[0]), y = static_cast<float>(link.normal[1]),
-                 z = static_cast<float>(link.normal[2]);
-      parts[k] = {{x * x, y * x, y * y, z * x, z * y, z * z, 0, 0}, {x, y, z, 0}, {end_of(link, 0), end_of(link, 1)}};
-    }
-    for (std::size_t k = 0; k < n; ++k) {
-      const Link& link = links[begin + k];
-      const std::size_t block = link.row[0] / block_rows, first = slices_.first_record(block);
-      add_part(sums_[first + (link.row[0] - block * block_rows)], parts[k], parts[k].end[0]);
-      if (link.row[1] != no_row) add_part(sums_[first + link.record], parts[k], parts[k].end[1]);
-    }
+void Question::add(const LinkColumns& links) {
+  Parts parts;
+  ends_of(links, 0, parts);
+  ends_of(links, 1, parts);
+  for (std::size_t k = 0; k < links.count; ++k) {
+    const auto x = static_cast<float>(links.x[k]), y = static_cast<float>(links.y[k]),
+               z = static_cast<float>(links.z[k]);
+    const float square[8] = {x * x, y * x, y * y, z * x, z * y, z * z, 0, 0}, vector[4] = {x, y, z, 0};
+    std::copy_n(square, 8, parts.square[k]);
+    std::copy_n(vector, 4, parts.vector[k]);
+  }
+  for (std::size_t k = 0; k < links.count; ++k) {
+    const uint32_t own = links.row[0][k], other = links.row[1][k];
+    const std::size_t block = own / block_rows, first = slices_.first_record(block);
+    add_part(sums_[first + (own - block * block_rows)], parts, 0, k);
+    if (other != no_row) add_part(sums_[first + links.record[k]], parts, 1, k);
   }
 }
 
@@ -116,11 +137,16 @@ bool Question::bears(const Sum& s, double share) const {
   return b.cwiseAbs().rowwise().sum().maxCoeff() < limit || stable(b, Block::Zero(), 1, limit);
 }
 
-bool Question::bears(std::size_t block, double share) const {
+void Question::ask(std::size_t block, double share, double less, uint8_t& all, uint8_t& all_less) const {
   const Sum* own = sums_.data() + slices_.first_record(block);
-  for (std::size_t row = 0; row < slices_.block_size(block); ++row)
-    if (!bears(own[row], share)) return false;
-  return true;
+  all = all_less = 1;
+  for (std::size_t row = 0; row < slices_.block_size(block); ++row) {
+    if (all_less != 0 && bears(own[row], less)) continue;
+    all_less = 0;
+    if (bears(own[row], share)) continue;
+    all = 0;
+    return;
+  }
 }
 
 }  // namespace
@@ -132,18 +158,24 @@ Holding step_holds(const Contacts& contacts, const Balls& balls, const std::vect
   const std::size_t blocks = contacts.slices().blocks();
   std::vector<std::size_t> counts(blocks, 0);
   const Links rest =
-      stream_links(contacts, balls, walls, cell, query, team, [&](std::size_t block, const std::vector<Link>& links) {
-        question.add(links.data(), links.size());
-        counts[block] += links.size();
+      stream_links(contacts, balls, walls, cell, query, team, [&](std::size_t block, const LinkColumns& links) {
+        question.add(links);
+        counts[block] += links.count;
       });
-  question.add(rest.links.data(), rest.links.size());
+  LinkColumns with_walls;
+  for (const Link& link : rest.links) {
+    with_walls.add(link);
+    if (with_walls.count < LinkColumns::size) continue;
+    question.add(with_walls);
+    with_walls.count = 0;
+  }
+  question.add(with_walls);
   const double share = 1 / (1 + local_damping);
   std::vector<uint8_t> holds(blocks), larger(blocks);
   team.each_block(blocks, [&](std::size_t block) {
     question.fold(block);
     // Springs grow with the square of the step and dashpots more slowly.
-    larger[block] = question.bears(block, share / (factor * factor));
-    holds[block] = larger[block] != 0 || question.bears(block, share);
+    question.ask(block, share, share / (factor * factor), holds[block], larger[block]);
   });
   Holding out;
   out.impact = rest.impact;

@@ -43,6 +43,7 @@ class Gatherer {
   void batch(const BoundRule& rule, uint32_t n, Links& out);
   void limits(const BoundRule& rule, uint32_t n, Links& out);
   void keep(const BoundRule& rule, uint32_t k, Links& out);
+  void send(const BoundRule& rule, uint32_t n, const double* gap);
   void lower(StepBound& held, double step, const char* term, uint32_t k) const;
   void load(const BoundRule& rule, const Wall& wall, uint32_t row, uint32_t touch, uint32_t k);
   void place(const Wall& wall, uint32_t row, uint32_t touch, uint32_t k);
@@ -58,6 +59,8 @@ class Gatherer {
   const LinkQuery query_;
   const std::size_t first_, last_;
   const LinkSink* sink_;
+  std::size_t block_ = 0;
+  LinkColumns columns_;
   Scratch s_;
   Tangents t_;
   WallTouches touches_;
@@ -97,6 +100,7 @@ void Gatherer::list(std::size_t index, std::size_t block, Links& out) {
   const bool all = bonded_ != nullptr || query_.impact_share > 0;
   const FilterInput near{list.begin.data(), list.other.data(), list.where.data(), periodic_ ? shifts_.of : nullptr,
                          all ? std::numeric_limits<double>::infinity() : rule.reach + query_.margin};
+  block_ = block;
   if (sink_ == nullptr) out.links.reserve(out.links.size() + (list.begin[end] - list.begin[begin]));
   Cursor cursor{list.begin[begin], begin, end};
   while (cursor.row < cursor.last_row) {
@@ -109,9 +113,6 @@ void Gatherer::list(std::size_t index, std::size_t block, Links& out) {
     for (std::size_t w = 0; w < list.state.size(); ++w)
       for (uint32_t k = 0; k < n; ++k) s_.state[w][k] = list.state[w][s_.slot[k]];
     batch(rule, n, out);
-    if (sink_ == nullptr) continue;
-    (*sink_)(block, out.links);
-    out.links.clear();
   }
 }
 
@@ -124,6 +125,7 @@ void Gatherer::batch(const BoundRule& rule, uint32_t n, Links& out) {
   for (uint32_t k = 0; k < n; ++k) s_.gap[k] -= query_.margin;
   tangents(rule, n, bonded(), s_, t_);
   std::copy_n(gap, n, s_.gap);
+  if (sink_ != nullptr && wall_ == no_row) return send(rule, n, gap);
   for (uint32_t k = 0; k < n; ++k) {
     const bool holds = bonded_ != nullptr && bonded_->broken[s_.slot[k]] == 0;
     if (holds || glued_ || !(gap[k] >= rule.reach + query_.margin)) keep(rule, k, out);
@@ -193,6 +195,42 @@ void Gatherer::keep(const BoundRule& rule, uint32_t k, Links& out) {
   out.dashpots = out.dashpots || link.cn > 0 || link.cs > 0;
   out.rotates = out.rotates || link.ks > 0 || link.kb > 0 || link.kt > 0;
   out.links.push_back(link);
+}
+
+// As keep, for all rows: first which, then column by column, so that vectors hold them.
+void Gatherer::send(const BoundRule& rule, uint32_t n, const double* gap) {
+  uint32_t which[Scratch::size], m = 0;
+  const double near = rule.reach + query_.margin;
+  for (uint32_t k = 0; k < n; ++k) {
+    const bool holds = bonded_ != nullptr && bonded_->broken[s_.slot[k]] == 0;
+    which[m] = k;
+    m += (holds || !(gap[k] >= near)) && s_.mass[k] > 0;
+  }
+  LinkColumns& to = columns_;
+  to.count = m;
+  const double *radius = view_.radius, most = bonded() ? std::numeric_limits<double>::infinity() : rule.reach;
+  for (uint32_t k = 0; k < m; ++k) {
+    const uint32_t from = which[k];
+    to.row[0][k] = s_.row[from];
+    to.row[1][k] = s_.other[from];
+    to.record[k] = s_.where[from] & target::record_mask;
+  }
+  for (uint32_t k = 0; k < m; ++k) {
+    const uint32_t from = which[k];
+    const double sign = s_.sign[from], half = 0.5 * std::min(most, gap[from]), mass = s_.mass[from];
+    to.x[k] = sign * s_.nx[from];
+    to.y[k] = sign * s_.ny[from];
+    to.z[k] = sign * s_.nz[from];
+    to.arm[0][k] = radius[to.row[0][k]] + half;
+    to.arm[1][k] = radius[to.row[1][k]] + half;
+    to.kn[k] = t_.normal[from];
+    to.ks[k] = t_.shear[from];
+    to.kb[k] = t_.bending[from];
+    to.kt[k] = t_.twist[from];
+    to.cn[k] = 2 * t_.ratio_normal[from] * std::sqrt(mass * t_.normal[from]);
+    to.cs[k] = 2 * t_.ratio_shear[from] * std::sqrt(mass * t_.shear[from]);
+  }
+  (*sink_)(block_, to);
 }
 
 /// Where a ball meets a wall, and how it moves there.
@@ -331,6 +369,24 @@ Links gather(const Contacts& contacts, const Balls& balls, const std::vector<Wal
 Links gather_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                    const PeriodicCell& cell, const LinkQuery& query, std::size_t first, std::size_t last, Team& team) {
   return gather(contacts, balls, walls, cell, query, {first, last}, Meet::all, team, nullptr);
+}
+
+void LinkColumns::add(const Link& link) {
+  const std::size_t k = count++;
+  for (int end = 0; end < 2; ++end) {
+    row[end][k] = link.row[end];
+    arm[end][k] = link.arm[end];
+  }
+  record[k] = link.record;
+  x[k] = link.normal[0];
+  y[k] = link.normal[1];
+  z[k] = link.normal[2];
+  kn[k] = link.kn;
+  ks[k] = link.ks;
+  kb[k] = link.kb;
+  kt[k] = link.kt;
+  cn[k] = link.cn;
+  cs[k] = link.cs;
 }
 
 Links wall_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,

@@ -42,8 +42,18 @@ Links gather_links(const Contacts& contacts, const Balls& balls, const std::vect
 Links wall_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls, const PeriodicCell& cell,
                  const LinkQuery& query, Team& team);
 
+/// Links as columns, up to a batch of them; words as in Link.
+struct LinkColumns {
+  static constexpr std::size_t size = SCREE_BATCH;
+  std::size_t count = 0;
+  uint32_t row[2][size], record[size];
+  double x[size], y[size], z[size];  ///< normal
+  double arm[2][size], kn[size], ks[size], kb[size], kt[size], cn[size], cs[size];
+  void add(const Link& link);  ///< there must be room
+};
+
 /// Takes links of pairs owned by a block of rows. Blocks come from several threads, each from one.
-using LinkSink = std::function<void(std::size_t block, const std::vector<Link>& links)>;
+using LinkSink = std::function<void(std::size_t block, const LinkColumns& links)>;
 /// The same over all rows, but links of pairs go batch by batch to `sink` and are not kept; those of walls are.
 Links stream_links(const Contacts& contacts, const Balls& balls, const std::vector<Wall>& walls,
                    const PeriodicCell& cell, const LinkQuery& query, Team& team, const LinkSink& sink);

@@ -58,6 +58,7 @@ bool Engine::estimates_pay(const LinkQuery& links, double damping, double wanted
 std::optional<StepBound> Engine::crowded(const NetworkQuery& query, uint64_t lasted) {
   const bool fast = query.sweeps == 0 && lasted < close_together && step.automatic() && step.step() > 0;
   if (!fast || !know_crowd()) return {};
+  if (crowd_use_.rests == 0 && crowd_->bound().step * (1 + most_price) < step.holding()) return {};
   std::size_t wall_slots = 0;
   for (const WallList& list : contacts.wall_lists()) wall_slots += list.slots.size();
   const double ends = static_cast<double>(2 * contacts.active() + wall_slots);
