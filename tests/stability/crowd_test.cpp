@@ -62,7 +62,7 @@ stages:
 
 /// Chute in units of ball diameter, mass and gravity; all of it at the automatic step.
 const std::string chute = R"(scree: 1
-seed: 7
+seed: 8
 cell: {low: [0, 0, -2], high: [8, 6, 80], periodic: [x, y]}
 balls:
   bed: {generator: lattice, kind: sc, radius: 0.5, box: [[0, 0, -1], [8, 6, 0]], density: 1.909859317102744}
