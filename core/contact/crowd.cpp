@@ -290,46 +290,56 @@ namespace {
 
 /// A ball at walls: what they add to its block, and the balls round it.
 struct AtWalls {
-  Block stiffness = Block::Zero(), damping = Block::Zero();
-  const Crowd* crowd;
+  uint32_t row, wall;
   uint16_t group;
   double radius;
-  bool bears(double h, double limit) const {
+  Block stiffness = Block::Zero(), damping = Block::Zero();
+  bool bears(const Crowd& crowd, double h, double limit) const {
     Block all = h * h * stiffness + h * damping;
-    all.diagonal().array() += crowd->share(group, radius, h);
+    all.diagonal().array() += crowd.share(group, radius, h);
     return stable(all, Block::Zero(), 1, limit);
   }
+  double size(double h) const { return h * h * stiffness.trace() + h * damping.trace(); }
 };
+
+std::vector<AtWalls> balls_at_walls(const std::vector<Link>& links, const Balls& balls) {
+  std::vector<const Link*> order;
+  for (const Link& link : links) order.push_back(&link);
+  std::stable_sort(order.begin(), order.end(), [](const Link* a, const Link* b) { return a->row[0] < b->row[0]; });
+  std::vector<AtWalls> all;
+  all.reserve(links.size());
+  for (const Link* link : order) {
+    const uint32_t row = link->row[0];
+    if (all.empty() || all.back().row != row)
+      all.push_back({row, link->wall, balls.group()[row], balls[Column::radius][row]});
+    const double inverse = balls[Column::inverse_mass][row];
+    add_end(all.back().stiffness, *link, 0, link->kn, link->ks, link->kb, link->kt, inverse, all.back().radius);
+    add_end(all.back().damping, *link, 0, link->cn, link->cs, 0, 0, inverse, all.back().radius);
+  }
+  return all;
+}
 
 }  // namespace
 
 StepBound crowd_at_walls(const Crowd& crowd, const std::vector<Link>& with_walls, const Balls& balls,
                          const std::vector<Wall>& walls) {
   StepBound bound = crowd.bound();
-  std::vector<const Link*> order;
-  for (const Link& link : with_walls) order.push_back(&link);
-  std::stable_sort(order.begin(), order.end(), [](const Link* a, const Link* b) { return a->row[0] < b->row[0]; });
-  const double limit = 1 / (1 + crowd.local_damping());
-  for (std::size_t first = 0, last = 0; first < order.size(); first = last) {
-    const uint32_t row = order[first]->row[0];
-    AtWalls ball;
-    ball.crowd = &crowd;
-    ball.group = balls.group()[row];
-    ball.radius = balls[Column::radius][row];
-    for (; last < order.size() && order[last]->row[0] == row; ++last) {
-      const Link& link = *order[last];
-      const double inverse = balls[Column::inverse_mass][row];
-      add_end(ball.stiffness, link, 0, link.kn, link.ks, link.kb, link.kt, inverse, ball.radius);
-      add_end(ball.damping, link, 0, link.cn, link.cs, 0, 0, inverse, ball.radius);
-    }
+  const double limit = 1 / (1 + crowd.local_damping()), at = 0.5 * bound.step;
+  const auto lower = [&](const AtWalls& ball) {
     double low = 0, high = 0.5 * bound.step;
-    if (ball.bears(high, limit)) continue;
-    for (int k = 0; k < 40; ++k) {
+    if (ball.bears(crowd, high, limit)) return;
+    for (int k = 0; k < 20; ++k) {
       const double middle = 0.5 * (low + high);
-      (ball.bears(middle, limit) ? low : high) = middle;
+      (ball.bears(crowd, middle, limit) ? low : high) = middle;
     }
-    bound = {2 * low, balls.id()[row], 0, walls[order[first]->wall].name, "crowd", false};
-  }
+    bound = {2 * low, balls.id()[ball.row], 0, walls[ball.wall].name, "crowd", false};
+  };
+  const std::vector<AtWalls> all = balls_at_walls(with_walls, balls);
+  if (all.empty()) return bound;
+  // The stiffest first: few of the others lower the step again.
+  lower(*std::max_element(all.begin(), all.end(),
+                          [&](const AtWalls& a, const AtWalls& b) { return a.size(at) < b.size(at); }));
+  for (const AtWalls& ball : all) lower(ball);
   return bound;
 }
 
