@@ -322,7 +322,7 @@ std::vector<AtWalls> balls_at_walls(const std::vector<Link>& links, const Balls&
 }  // namespace
 
 StepBound crowd_at_walls(const Crowd& crowd, const std::vector<Link>& with_walls, const Balls& balls,
-                         const std::vector<Wall>& walls) {
+                         const std::vector<Wall>& walls, double least) {
   StepBound bound = crowd.bound();
   const double limit = 1 / (1 + crowd.local_damping()), at = 0.5 * bound.step;
   const auto lower = [&](const AtWalls& ball) {
@@ -337,8 +337,10 @@ StepBound crowd_at_walls(const Crowd& crowd, const std::vector<Link>& with_walls
   const std::vector<AtWalls> all = balls_at_walls(with_walls, balls);
   if (all.empty()) return bound;
   // The stiffest first: few of the others lower the step again.
-  lower(*std::max_element(all.begin(), all.end(),
-                          [&](const AtWalls& a, const AtWalls& b) { return a.size(at) < b.size(at); }));
+  const AtWalls& stiffest = *std::max_element(
+      all.begin(), all.end(), [&](const AtWalls& a, const AtWalls& b) { return a.size(at) < b.size(at); });
+  if (least > 0 && !stiffest.bears(crowd, 0.5 * least, limit)) return {};
+  lower(stiffest);
   for (const AtWalls& ball : all) lower(ball);
   return bound;
 }

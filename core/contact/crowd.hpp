@@ -69,8 +69,9 @@ class Crowd {
   double pair_step_ = 0;
 };
 
-/// The limit of the step where balls touch walls as the links tell, and other balls in any arrangement.
+/// The limit of the step where balls touch walls as the links tell, and other balls in any arrangement. One that is
+/// seen to lie below `least` (s) is not looked for: the step is then 0.
 StepBound crowd_at_walls(const Crowd& crowd, const std::vector<Link>& with_walls, const Balls& balls,
-                         const std::vector<Wall>& walls);
+                         const std::vector<Wall>& walls, double least = 0);
 
 }  // namespace scree::core

@@ -58,7 +58,9 @@ bool Engine::estimates_pay(const LinkQuery& links, double damping, double wanted
 std::optional<StepBound> Engine::crowded(const NetworkQuery& query, uint64_t lasted) {
   const bool fast = query.sweeps == 0 && lasted < close_together && step.automatic() && step.step() > 0;
   if (!fast || !know_crowd()) return {};
-  if (crowd_use_.rests == 0 && crowd_->bound().step * (1 + most_price) < step.holding()) return {};
+  // While the step comes from an estimate, less than this is not worth it.
+  const double least = crowd_use_.rests == 0 ? step.holding() / (1 + most_price) : 0;
+  if (crowd_->bound().step < least) return {};
   std::size_t wall_slots = 0;
   for (const WallList& list : contacts.wall_lists()) wall_slots += list.slots.size();
   const double ends = static_cast<double>(2 * contacts.active() + wall_slots);
@@ -67,7 +69,8 @@ std::optional<StepBound> Engine::crowded(const NetworkQuery& query, uint64_t las
   links.birth_depth = birth_depth;
   links.impact_share = step.accurate ? accurate_share : few ? impact_share : 0.0;
   const Links with_walls = wall_links(contacts, balls, walls, cell, links, team);
-  StepBound bound = crowd_at_walls(*crowd_, with_walls.links, balls, walls);
+  StepBound bound = crowd_at_walls(*crowd_, with_walls.links, balls, walls, least);
+  if (bound.step == 0) return {};
   if (links.impact_share > 0) {
     if (!(crowd_->pair_step() > 0)) return {};
     bound = smaller(bound, {links.impact_share * crowd_->pair_step(), bound.ball, 0, "", "pair", false});
