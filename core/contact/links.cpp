@@ -42,8 +42,8 @@ class Gatherer {
   void list(std::size_t index, std::size_t block, Links& out);
   void batch(const BoundRule& rule, uint32_t n, Links& out);
   void limits(const BoundRule& rule, uint32_t n, Links& out);
-  void keep(const BoundRule& rule, uint32_t k, Links& out);
-  void send(const BoundRule& rule, uint32_t n, const double* gap);
+  void fill(const BoundRule& rule, uint32_t n, const double* gap);
+  void keep(Links& out) const;
   void lower(StepBound& held, double step, const char* term, uint32_t k) const;
   void load(const BoundRule& rule, const Wall& wall, uint32_t row, uint32_t touch, uint32_t k);
   void place(const Wall& wall, uint32_t row, uint32_t touch, uint32_t k);
@@ -125,11 +125,11 @@ void Gatherer::batch(const BoundRule& rule, uint32_t n, Links& out) {
   for (uint32_t k = 0; k < n; ++k) s_.gap[k] -= query_.margin;
   tangents(rule, n, bonded(), s_, t_);
   std::copy_n(gap, n, s_.gap);
-  if (sink_ != nullptr && wall_ == no_row) return send(rule, n, gap);
-  for (uint32_t k = 0; k < n; ++k) {
-    const bool holds = bonded_ != nullptr && bonded_->broken[s_.slot[k]] == 0;
-    if (holds || glued_ || !(gap[k] >= rule.reach + query_.margin)) keep(rule, k, out);
-  }
+  fill(rule, n, gap);
+  if (sink_ != nullptr && wall_ == no_row)
+    (*sink_)(block_, columns_);
+  else
+    keep(out);
 }
 
 void Gatherer::lower(StepBound& held, double step, const char* term, uint32_t k) const {
@@ -167,44 +167,16 @@ void Gatherer::limits(const BoundRule& rule, uint32_t n, Links& out) {
       lower(out.impact, query_.impact_share * 2 * std::sqrt(s_.mass[k] / peak[k]), "pair", k);
 }
 
-void Gatherer::keep(const BoundRule& rule, uint32_t k, Links& out) {
-  const std::size_t i = s_.row[k], j = wall_ == no_row ? s_.other[k] : no_row;
-  if (!holds(i) && !(j != no_row && holds(j))) return;
-  if (!(s_.mass[k] > 0)) return;
-  Link link{};
-  link.row[0] = s_.row[k];
-  link.row[1] = static_cast<uint32_t>(j);
-  link.wall = wall_;
-  link.record = j == no_row ? 0 : s_.where[k] & target::record_mask;
-  // The stages give the normal from the lower to the higher id; a block wants it outward from its ball, as contacts of
-  // one ball couple translation and rotation with the sign of their side.
-  const double sign = wall_ == no_row ? s_.sign[k] : 1.0;
-  link.normal[0] = sign * s_.nx[k];
-  link.normal[1] = sign * s_.ny[k];
-  link.normal[2] = sign * s_.nz[k];
-  // A gap that has yet to close does not lengthen the arm it will have.
-  const double half = 0.5 * (bonded() ? s_.gap[k] : std::min(rule.reach, s_.gap[k]));
-  link.arm[0] = view_.radius[i] + half;
-  link.arm[1] = j == no_row ? 0.0 : view_.radius[j] + half;
-  link.kn = t_.normal[k];
-  link.ks = t_.shear[k];
-  link.kb = t_.bending[k];
-  link.kt = t_.twist[k];
-  link.cn = 2 * t_.ratio_normal[k] * std::sqrt(s_.mass[k] * link.kn);
-  link.cs = 2 * t_.ratio_shear[k] * std::sqrt(s_.mass[k] * link.ks);
-  out.dashpots = out.dashpots || link.cn > 0 || link.cs > 0;
-  out.rotates = out.rotates || link.ks > 0 || link.kb > 0 || link.kt > 0;
-  out.links.push_back(link);
-}
-
-// As keep, for all rows: first which, then column by column, so that vectors hold them.
-void Gatherer::send(const BoundRule& rule, uint32_t n, const double* gap) {
+// The links of a batch, which touch at `gap` or could: first which, then column by column, so that vectors hold them.
+void Gatherer::fill(const BoundRule& rule, uint32_t n, const double* gap) {
   uint32_t which[Scratch::size], m = 0;
   const double near = rule.reach + query_.margin;
+  const bool pairs = wall_ == no_row;
   for (uint32_t k = 0; k < n; ++k) {
-    const bool holds = bonded_ != nullptr && bonded_->broken[s_.slot[k]] == 0;
+    const bool bond = glued_ || (bonded_ != nullptr && bonded_->broken[s_.slot[k]] == 0);
+    const bool asked = holds(s_.row[k]) || (pairs && holds(s_.other[k]));
     which[m] = k;
-    m += (holds || !(gap[k] >= near)) && s_.mass[k] > 0;
+    m += asked && (bond || !(gap[k] >= near)) && s_.mass[k] > 0;
   }
   LinkColumns& to = columns_;
   to.count = m;
@@ -212,17 +184,21 @@ void Gatherer::send(const BoundRule& rule, uint32_t n, const double* gap) {
   for (uint32_t k = 0; k < m; ++k) {
     const uint32_t from = which[k];
     to.row[0][k] = s_.row[from];
-    to.row[1][k] = s_.other[from];
-    to.record[k] = s_.where[from] & target::record_mask;
+    to.row[1][k] = pairs ? s_.other[from] : no_row;
+    to.record[k] = pairs ? s_.where[from] & target::record_mask : 0;
   }
   for (uint32_t k = 0; k < m; ++k) {
     const uint32_t from = which[k];
-    const double sign = s_.sign[from], half = 0.5 * std::min(most, gap[from]), mass = s_.mass[from];
+    // The stages give the normal from the lower to the higher id; a block wants it outward from its ball, as contacts
+    // of one ball couple translation and rotation with the sign of their side.
+    const double sign = pairs ? s_.sign[from] : 1.0, mass = s_.mass[from];
+    // A gap that has yet to close does not lengthen the arm it will have.
+    const double half = 0.5 * std::min(most, gap[from]);
     to.x[k] = sign * s_.nx[from];
     to.y[k] = sign * s_.ny[from];
     to.z[k] = sign * s_.nz[from];
     to.arm[0][k] = radius[to.row[0][k]] + half;
-    to.arm[1][k] = radius[to.row[1][k]] + half;
+    to.arm[1][k] = pairs ? radius[to.row[1][k]] + half : 0.0;
     to.kn[k] = t_.normal[from];
     to.ks[k] = t_.shear[from];
     to.kb[k] = t_.bending[from];
@@ -230,7 +206,25 @@ void Gatherer::send(const BoundRule& rule, uint32_t n, const double* gap) {
     to.cn[k] = 2 * t_.ratio_normal[from] * std::sqrt(mass * t_.normal[from]);
     to.cs[k] = 2 * t_.ratio_shear[from] * std::sqrt(mass * t_.shear[from]);
   }
-  (*sink_)(block_, to);
+}
+
+void Gatherer::keep(Links& out) const {
+  const LinkColumns& c = columns_;
+  for (std::size_t k = 0; k < c.count; ++k) {
+    out.links.push_back({{c.row[0][k], c.row[1][k]},
+                         wall_,
+                         c.record[k],
+                         {c.x[k], c.y[k], c.z[k]},
+                         {c.arm[0][k], c.arm[1][k]},
+                         c.kn[k],
+                         c.ks[k],
+                         c.kb[k],
+                         c.kt[k],
+                         c.cn[k],
+                         c.cs[k]});
+    out.dashpots = out.dashpots || c.cn[k] > 0 || c.cs[k] > 0;
+    out.rotates = out.rotates || c.ks[k] > 0 || c.kb[k] > 0 || c.kt[k] > 0;
+  }
 }
 
 /// Where a ball meets a wall, and how it moves there.
